@@ -1,0 +1,38 @@
+# One library per engine folder. Each library sees only the headers of the libraries it links, because every folder is
+# exposed through an include root of its own: an include that points up or sideways does not compile.
+
+add_library(licht_warnings INTERFACE)
+target_compile_options(licht_warnings INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wold-style-cast -Wnon-virtual-dtor
+  -Woverloaded-virtual -Wnull-dereference -Wdouble-promotion -Wformat=2 -Wimplicit-fallthrough
+  $<$<BOOL:${LICHT_WARNINGS_AS_ERRORS}>:-Werror>)
+if(LICHT_SANITIZE)
+  add_compile_options(-fsanitize=${LICHT_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  add_link_options(-fsanitize=${LICHT_SANITIZE})
+endif()
+
+# licht_include_root(TARGET NAME FOLDER): FOLDER's headers become <licht/NAME/...> for TARGET and its users.
+function(licht_include_root target scope name folder)
+  set(root ${PROJECT_BINARY_DIR}/floors/${name})
+  file(MAKE_DIRECTORY ${root}/licht)
+  file(CREATE_LINK ${folder} ${root}/licht/${name} SYMBOLIC)
+  target_include_directories(${target} ${scope} $<BUILD_INTERFACE:${root}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+endfunction()
+
+# licht_floor(NAME LINKS ... PRIVATE_LINKS ...): every .cpp of this folder becomes the library licht_NAME, alias licht::NAME.
+function(licht_floor name)
+  cmake_parse_arguments(arg "" "" "LINKS;PRIVATE_LINKS" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS *.cpp)
+  if(NOT sources)
+    file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/empty.cpp "")
+    set(sources ${CMAKE_CURRENT_BINARY_DIR}/empty.cpp)
+  endif()
+  add_library(licht_${name} STATIC ${sources})
+  add_library(licht::${name} ALIAS licht_${name})
+  set_target_properties(licht_${name} PROPERTIES EXPORT_NAME ${name})
+  licht_include_root(licht_${name} PUBLIC ${name} ${CMAKE_CURRENT_SOURCE_DIR})
+  target_compile_features(licht_${name} PUBLIC cxx_std_20)
+  target_link_libraries(licht_${name} PUBLIC ${arg_LINKS} PRIVATE ${arg_PRIVATE_LINKS} $<BUILD_INTERFACE:licht_warnings>)
+  set_property(GLOBAL APPEND PROPERTY LICHT_FLOORS licht_${name})
+  set_property(GLOBAL APPEND PROPERTY LICHT_FLOOR_FOLDERS ${CMAKE_CURRENT_SOURCE_DIR})
+endfunction()

@@ -1,0 +1,49 @@
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "licht/core/math.h"
+#include "licht/shared/bvh_layout.h"
+
+namespace licht {
+
+/// Three vertices in world space.
+struct BvhTriangle {
+    vec3 v0, v1, v2;
+};
+
+/// A 4-wide bounding volume hierarchy over triangles, in the layout that the shaders read (licht/shared/bvh_layout.h).
+struct Bvh {
+    std::vector<BvhNode> nodes;               ///< nodes[0] is the root; never empty: an empty scene has one node without children
+    std::vector<std::uint32_t> triangle_ids;  ///< position in the leaves' order -> index of the input triangle
+    std::uint32_t max_stack = 0;              ///< entries a traversal can ever hold at once; traversals size their stack by it
+    std::uint32_t depth = 0;
+    std::uint32_t dropped = 0;  ///< input triangles left out: a non-finite or > 1.8e18 coordinate, or exactly zero area
+    Bounds bounds;              ///< of the kept triangles
+    double build_seconds = 0.0;
+};
+
+/// Builds by binned SAH (Wald 2007, On fast Construction of SAH-based Bounding Volume Hierarchies), binary, then collapsed to four children.
+/// Identical centroids fall back to halving by index, so the depth is bounded by 2 log2(n) + a constant and max_stack is exact.
+/// Deterministic: same input, same tree.
+Bvh buildBvh(std::span<const BvhTriangle> triangles);
+
+struct BvhHit {
+    std::uint32_t triangle = 0;  ///< index of the input triangle
+    float t = 0.0F;
+    float b1 = 0.0F;  ///< barycentric weight of v1
+    float b2 = 0.0F;  ///< barycentric weight of v2
+};
+
+/// Watertight ray-triangle test (Woop, Benthin, Wald 2013, Watertight Ray/Triangle Intersection). nullopt outside [t_min, t_max).
+std::optional<BvhHit> intersectTriangle(const Ray& ray, const BvhTriangle& triangle);
+
+/// CPU reference traversal: the nearest hit; ties go to the lower triangle index. A ray that is not finite hits nothing.
+std::optional<BvhHit> intersect(const Bvh& bvh, std::span<const BvhTriangle> triangles, const Ray& ray);
+
+/// The naive reference: every triangle, one after the other.
+std::optional<BvhHit> intersectBruteForce(std::span<const BvhTriangle> triangles, const Ray& ray);
+
+}  // namespace licht

@@ -1,0 +1,98 @@
+#pragma once
+#include <vulkan/vulkan.h>
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace licht::gpu {
+
+/// Throws DeviceError "<what>: VK_ERROR_..." unless the result is VK_SUCCESS. Checked in release builds too.
+void check(VkResult result, std::string_view what);
+/// "VK_ERROR_DEVICE_LOST" and so on.
+std::string_view resultName(VkResult result);
+
+/// One Vulkan device of this machine, and why it would not do.
+struct DeviceReport {
+    std::uint32_t index = 0;  ///< in the order of enumeration
+    std::string name;
+    std::string driver;       ///< driver name and version text
+    std::string api_version;  ///< "1.3.230"
+    std::string type;         ///< "cpu", "discrete gpu", "integrated gpu", "virtual gpu", "other"
+    std::vector<std::string> refusals;  ///< every reason; empty: usable
+    bool chosen = false;
+};
+
+struct DeviceOptions {
+    std::string device;       ///< name (part of it, case-insensitive) or index; empty: the best usable one
+    bool validation = false;  ///< Khronos validation layer with synchronisation validation; throws DeviceError when the layer is missing
+    /// Instance extensions that presentation needs (GLFW names them); empty: headless.
+    std::vector<std::string> instance_extensions;
+    /// Makes the surface that the queue family must be able to present to; called once with the instance. Null: headless. The device destroys it.
+    std::function<VkSurfaceKHR(VkInstance)> create_surface;
+};
+
+/// Every device with its refusals; `chosen` marks the one that `options` would take. Throws DeviceError when there is no Vulkan loader or driver.
+std::vector<DeviceReport> listDevices(const DeviceOptions& options);
+
+/// Instance, device and one queue for graphics, compute and transfer. Vulkan 1.3 core: dynamic rendering, synchronization2 (both required features).
+class Device {
+public:
+    /// Throws InputError when options.device names no usable device (all reasons in the text), DeviceError when creation fails.
+    explicit Device(const DeviceOptions& options);
+    Device(const Device&) = delete;
+    Device& operator=(const Device&) = delete;
+    ~Device();
+
+    [[nodiscard]] VkInstance instance() const { return instance_; }
+    [[nodiscard]] VkPhysicalDevice physicalDevice() const { return physical_device_; }
+    [[nodiscard]] VkDevice handle() const { return device_; }
+    [[nodiscard]] VkQueue queue() const { return queue_; }
+    [[nodiscard]] std::uint32_t queueFamily() const { return queue_family_; }
+    [[nodiscard]] VkSurfaceKHR surface() const { return surface_; }
+    [[nodiscard]] const DeviceReport& report() const { return report_; }
+    [[nodiscard]] const VkPhysicalDeviceLimits& limits() const { return limits_; }
+    [[nodiscard]] VkPipelineCache pipelineCache() const { return pipeline_cache_; }
+
+    /// Memory of that kind for these requirements; counted in deviceBytes(). Throws DeviceError with the size that did not fit.
+    [[nodiscard]] VkDeviceMemory allocate(const VkMemoryRequirements& requirements, VkMemoryPropertyFlags wanted,
+                                          VkMemoryPropertyFlags preferred, std::string_view name);
+    void release(VkDeviceMemory memory, VkDeviceSize size);
+    /// Bytes of device memory held now, and the most ever held.
+    [[nodiscard]] std::uint64_t deviceBytes() const { return device_bytes_; }
+    [[nodiscard]] std::uint64_t devicePeakBytes() const { return device_peak_bytes_; }
+
+    /// Validation messages so far (warnings and errors). Tests demand none.
+    [[nodiscard]] std::vector<std::string> validationMessages() const;
+
+    /// Names the object for debuggers and validation messages, where debug utils are there.
+    void setName(VkObjectType type, std::uint64_t handle, std::string_view name) const;
+    [[nodiscard]] bool hasDebugUtils() const { return debug_utils_; }
+
+    void waitIdle() const;
+
+private:
+    struct Messages;
+    VkInstance instance_ = VK_NULL_HANDLE;
+    VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
+    VkSurfaceKHR surface_ = VK_NULL_HANDLE;
+    VkPhysicalDevice physical_device_ = VK_NULL_HANDLE;
+    VkDevice device_ = VK_NULL_HANDLE;
+    VkQueue queue_ = VK_NULL_HANDLE;
+    std::uint32_t queue_family_ = 0;
+    VkPipelineCache pipeline_cache_ = VK_NULL_HANDLE;
+    VkPhysicalDeviceLimits limits_{};
+    VkPhysicalDeviceMemoryProperties memory_properties_{};
+    DeviceReport report_;
+    bool debug_utils_ = false;
+    std::uint64_t device_bytes_ = 0;
+    std::uint64_t device_peak_bytes_ = 0;
+    std::unique_ptr<Messages> messages_;
+};
+
+}  // namespace licht::gpu

@@ -1,0 +1,121 @@
+#pragma once
+#include <cstddef>
+#include <span>
+#include <string>
+
+#include "licht/gpu/device.h"
+
+namespace licht::gpu {
+
+/// What was last done to a resource; Commands derives barriers from it.
+struct ResourceState {
+    VkPipelineStageFlags2 stages = VK_PIPELINE_STAGE_2_NONE;
+    VkAccessFlags2 access = VK_ACCESS_2_NONE;
+    bool written = false;
+    VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
+};
+
+enum class Memory {
+    device,     ///< device-local
+    host_write, ///< mapped; the host writes, the device reads
+    host_read,  ///< mapped, cached where there is such memory; the device writes, the host reads
+};
+
+class Buffer {
+public:
+    Buffer() = default;
+    /// size 0 is rounded up to 16 bytes, because Vulkan has no empty buffers.
+    Buffer(Device& device, std::string name, VkDeviceSize size, VkBufferUsageFlags usage, Memory memory);
+    Buffer(Buffer&& other) noexcept;
+    Buffer& operator=(Buffer&& other) noexcept;
+    ~Buffer();
+
+    [[nodiscard]] VkBuffer handle() const { return buffer_; }
+    [[nodiscard]] VkDeviceSize size() const { return size_; }
+    [[nodiscard]] const std::string& name() const { return name_; }
+    [[nodiscard]] std::byte* mapped() const { return mapped_; }  ///< null for Memory::device
+    [[nodiscard]] explicit operator bool() const { return buffer_ != VK_NULL_HANDLE; }
+
+    mutable ResourceState state;  ///< bookkeeping of Commands
+
+private:
+    void destroy() noexcept;
+    Device* device_ = nullptr;
+    std::string name_;
+    VkBuffer buffer_ = VK_NULL_HANDLE;
+    VkDeviceMemory memory_ = VK_NULL_HANDLE;
+    VkDeviceSize size_ = 0;
+    VkDeviceSize allocated_ = 0;
+    std::byte* mapped_ = nullptr;
+};
+
+/// A device-local buffer filled with these bytes through a staging copy; complete when it returns. VK_BUFFER_USAGE_TRANSFER_DST_BIT is added.
+Buffer uploadBuffer(Device& device, std::string name, std::span<const std::byte> bytes, VkBufferUsageFlags usage);
+
+template <typename T>
+Buffer uploadBuffer(Device& device, std::string name, std::span<const T> values, VkBufferUsageFlags usage) {
+    return uploadBuffer(device, std::move(name), std::as_bytes(values), usage);
+}
+
+/// A formatted view on a whole buffer, for uniform texel buffers.
+class TexelView {
+public:
+    TexelView() = default;
+    TexelView(Device& device, const Buffer& buffer, VkFormat format);
+    TexelView(TexelView&& other) noexcept;
+    TexelView& operator=(TexelView&& other) noexcept;
+    ~TexelView();
+    [[nodiscard]] VkBufferView handle() const { return view_; }
+
+private:
+    Device* device_ = nullptr;
+    VkBufferView view_ = VK_NULL_HANDLE;
+};
+
+/// A 2D image of one level, optimal tiling, device-local, with its whole view.
+class Image {
+public:
+    Image() = default;
+    Image(Device& device, std::string name, VkExtent2D extent, VkFormat format, VkImageUsageFlags usage);
+    Image(Image&& other) noexcept;
+    Image& operator=(Image&& other) noexcept;
+    ~Image();
+
+    [[nodiscard]] VkImage handle() const { return image_; }
+    [[nodiscard]] VkImageView view() const { return view_; }
+    [[nodiscard]] VkExtent2D extent() const { return extent_; }
+    [[nodiscard]] VkFormat format() const { return format_; }
+    [[nodiscard]] VkImageAspectFlags aspect() const { return aspect_; }
+    [[nodiscard]] const std::string& name() const { return name_; }
+    [[nodiscard]] explicit operator bool() const { return image_ != VK_NULL_HANDLE; }
+
+    mutable ResourceState state;  ///< bookkeeping of Commands
+
+private:
+    void destroy() noexcept;
+    Device* device_ = nullptr;
+    std::string name_;
+    VkImage image_ = VK_NULL_HANDLE;
+    VkDeviceMemory memory_ = VK_NULL_HANDLE;
+    VkDeviceSize allocated_ = 0;
+    VkImageView view_ = VK_NULL_HANDLE;
+    VkExtent2D extent_{};
+    VkFormat format_ = VK_FORMAT_UNDEFINED;
+    VkImageAspectFlags aspect_ = 0;
+};
+
+class Sampler {
+public:
+    Sampler() = default;
+    Sampler(Device& device, VkFilter filter, VkSamplerAddressMode wrap_u, VkSamplerAddressMode wrap_v);
+    Sampler(Sampler&& other) noexcept;
+    Sampler& operator=(Sampler&& other) noexcept;
+    ~Sampler();
+    [[nodiscard]] VkSampler handle() const { return sampler_; }
+
+private:
+    Device* device_ = nullptr;
+    VkSampler sampler_ = VK_NULL_HANDLE;
+};
+
+}  // namespace licht::gpu

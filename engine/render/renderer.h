@@ -1,0 +1,109 @@
+#pragma once
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "licht/gpu/commands.h"
+#include "licht/image/image.h"
+#include "licht/scene/effects.h"
+#include "licht/scene/scene.h"
+
+namespace licht {
+
+/// Extra layers beside the beauty picture; each one costs its pass and memory only when it is asked for.
+struct AovSet {
+    bool albedo = false;
+    bool normal = false;  ///< world-space shading normal
+    bool depth = false;   ///< distance along the camera's axis, metres
+    bool motion = false;  ///< pixels, from the previous view's position to this one's
+
+    [[nodiscard]] bool any() const { return albedo || normal || depth || motion; }
+};
+
+/// How direct light is found. mis: next event estimation and scattering combined; hemisphere: scattering alone, the lecture's first form.
+enum class DirectLight : std::uint32_t { mis, hemisphere };
+
+struct RenderSettings {
+    uvec2 size{960, 540};
+    std::uint32_t bounces = 8;         ///< L = sum of T^i Le for i <= bounces
+    std::uint32_t roulette_start = 8;  ///< first bounce that may end a path by chance; >= bounces: never
+    std::uint32_t seed = 0;
+    std::uint32_t first_sample = 0;    ///< index of the first sample: ranges rendered apart merge to the whole
+    DirectLight direct = DirectLight::mis;
+    AovSet aovs;
+    bool all_effects = false;          ///< compile everything, called for or not (the reference for the specialised programs)
+    bool storage_buffer_bvh = false;   ///< fetch the BVH from storage buffers even where texel buffers are large enough
+};
+
+/// What was accumulated so far, on the host. Planes are width * height, from the top left.
+struct Film {
+    uvec2 size{0};
+    std::uint32_t samples = 0;
+    Image mean;      ///< RGBA: linear radiance, cd/m^2; alpha: share of samples that saw a surface or a sky
+    Image variance;  ///< RGB: estimated variance of the mean above (zero while samples < 2)
+    Image albedo;    ///< RGB, when asked for
+    Image normal;    ///< XYZ, unit or zero, when asked for
+    Image depth;     ///< when asked for; infinite where nothing was hit
+    Image motion;    ///< XY, when asked for
+};
+
+/// Merges two films of disjoint sample ranges (Chan, Golub, LeVeque 1979, Updating Formulae and a Pairwise Algorithm for Computing Sample Variances).
+Film mergeFilms(const Film& a, const Film& b);
+
+/// sqrt of the estimated relMSE: mean over pixels and channels of variance of the mean / (mean^2 + 0.01 * (the picture's mean)^2).
+/// Negative while it is unknown (fewer than two samples).
+double relativeError(const Film& film);
+
+enum class Tonemap : std::uint32_t { none, neutral, agx, aces };
+
+struct RenderStatistics {
+    double bvh_seconds = 0.0;
+    double upload_seconds = 0.0;
+    double pipeline_seconds = 0.0;
+    std::map<std::string, gpu::PassTime> passes;
+    std::uint64_t primary_rays = 0;  ///< pixels rasterised times samples
+    std::uint64_t bounce_rays = 0;
+    std::uint64_t shadow_rays = 0;
+    std::uint64_t nonfinite_samples = 0;
+};
+
+/// The frame, in order: gbuffer -> trace -> accumulate -> tonemap. Offscreen and windowed use the same one.
+class Renderer {
+public:
+    /// Builds the BVH, uploads and compiles. The device must outlive the renderer; the scene need not.
+    /// Throws InputError when the scene does not fit the device's limits (with the numbers).
+    Renderer(gpu::Device& device, const Scene& scene, const Camera& camera, const RenderSettings& settings);
+    Renderer(const Renderer&) = delete;
+    Renderer& operator=(const Renderer&) = delete;
+    ~Renderer();
+
+    /// Records and submits one sample per pixel; returns while the device works, with at most two frames in flight.
+    void renderSample();
+    /// Waits for everything submitted.
+    void finish();
+    [[nodiscard]] std::uint32_t samples() const;
+
+    /// Moves the camera; the history starts anew when the view differs.
+    void setCamera(const Camera& camera);
+    /// Changes the picture's size; the history starts anew.
+    void resize(uvec2 size);
+
+    [[nodiscard]] Film readFilm();
+    /// The tone-mapped picture, display-referred sRGB in [0,1], RGBA.
+    [[nodiscard]] Image readDisplay(Tonemap curve, float exposure_ev);
+    /// Records the tone map into an RGBA8/BGRA8 image of the same size; used by the window. `commands` must be recording.
+    void recordDisplay(gpu::Commands& commands, Tonemap curve, float exposure_ev);
+    /// The image recordDisplay writes: R8G8B8A8_UNORM, already sRGB-encoded.
+    [[nodiscard]] const gpu::Image& displayImage() const;
+
+    [[nodiscard]] const Effects& effects() const;
+    [[nodiscard]] RenderStatistics statistics() const;
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace licht

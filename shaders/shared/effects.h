@@ -1,0 +1,22 @@
+// Identifiers of the effects. The same number is the effect's specialisation constant in every program.
+#ifndef LICHT_SHARED_EFFECTS_H
+#define LICHT_SHARED_EFFECTS_H
+#include "seam.h"
+
+LICHT_SHARED_BEGIN
+
+LICHT_CONSTANT uint kEffectTextures = 0u;        // any texture is read
+LICHT_CONSTANT uint kEffectNormalMaps = 1u;      // tangent frames
+LICHT_CONSTANT uint kEffectVertexColors = 2u;
+LICHT_CONSTANT uint kEffectExtraUvSets = 3u;     // TEXCOORD_1 and up
+LICHT_CONSTANT uint kEffectAlpha = 4u;           // MASK or BLEND
+LICHT_CONSTANT uint kEffectGlossy = 5u;          // the GGX lobe
+LICHT_CONSTANT uint kEffectEmission = 6u;        // surfaces that emit
+LICHT_CONSTANT uint kEffectLightTriangles = 7u;  // emissive triangles worth sampling
+LICHT_CONSTANT uint kEffectPunctualLights = 8u;
+LICHT_CONSTANT uint kEffectEnvironment = 9u;
+LICHT_CONSTANT uint kEffectUnlit = 10u;
+LICHT_CONSTANT uint kEffectCount = 11u;
+
+LICHT_SHARED_END
+#endif

@@ -1,0 +1,168 @@
+// Every record that C++ writes and GLSL reads, or the other way round. std430 rules: a vec3 is followed by a scalar, so that both
+// languages agree on every offset without padding that nobody named.
+#ifndef LICHT_SHARED_RECORDS_H
+#define LICHT_SHARED_RECORDS_H
+#include "seam.h"
+
+LICHT_SHARED_BEGIN
+
+LICHT_CONSTANT uint kNoIndex = 0xffffffffu;
+
+// A vertex in world space. TEXCOORD_0 rides along; further sets, tangents and colours have buffers of their own, present only when called for.
+struct VertexRecord {
+    vec3 position;
+    float u;
+    vec3 normal;  // unit; zero: shade flat
+    float v;
+};
+
+LICHT_CONSTANT uint kInstanceDoubleSided = 1u;
+LICHT_CONSTANT uint kInstanceAlpha = 2u;
+LICHT_CONSTANT uint kInstanceTangents = 4u;
+
+struct InstanceRecord {
+    uint first_triangle;  // into the triangle indices
+    uint material;
+    uint first_light;     // light index of primitive 0; kNoIndex: its triangles are not in the light table
+    uint flags;
+};
+
+LICHT_CONSTANT uint kSlotLinear = 1u;       // bilinear filter
+LICHT_CONSTANT uint kSlotWrapUShift = 1u;   // two bits each: 0 repeat, 1 clamp, 2 mirror
+LICHT_CONSTANT uint kSlotWrapVShift = 3u;
+LICHT_CONSTANT uint kSlotSrgb = 32u;        // decode RGB by the sRGB curve
+LICHT_CONSTANT uint kSlotUvSetShift = 8u;
+
+struct TextureSlotRecord {
+    vec3 u_from_uv;
+    uint texture;  // kNoIndex: none
+    vec3 v_from_uv;
+    uint flags;
+};
+
+LICHT_CONSTANT uint kTexelsPerPageLog2 = 24u;  // 64 MiB of RGBA8 a page: half the storage buffer that every device guarantees
+LICHT_CONSTANT uint kTexturePages = 8u;
+
+struct TextureRecord {
+    uint page;
+    uint first_word;
+    uint width;
+    uint height;
+    uint words_per_texel;  // 1: RGBA8, 2: RGBA16
+    uint reserved0;
+    uint reserved1;
+    uint reserved2;
+};
+
+LICHT_CONSTANT uint kMaterialUnlit = 1u;
+LICHT_CONSTANT uint kMaterialAlphaMask = 2u;
+LICHT_CONSTANT uint kMaterialAlphaBlend = 4u;
+LICHT_CONSTANT uint kMaterialDoubleSided = 8u;
+
+struct MaterialRecord {
+    vec4 base_color;
+    vec3 emission;         // cd/m^2
+    float metallic;
+    vec3 specular_color;
+    float roughness;
+    float specular;
+    float dielectric_f0;   // ((ior - 1) / (ior + 1))^2
+    float normal_scale;
+    float alpha_cutoff;
+    uint flags;
+    uint reserved0;
+    uint reserved1;
+    uint reserved2;
+    TextureSlotRecord base_color_slot;
+    TextureSlotRecord metallic_roughness_slot;
+    TextureSlotRecord normal_slot;
+    TextureSlotRecord emissive_slot;
+    TextureSlotRecord specular_slot;
+    TextureSlotRecord specular_color_slot;
+};
+
+LICHT_CONSTANT uint kLightTriangle = 0u;
+LICHT_CONSTANT uint kLightPoint = 1u;
+LICHT_CONSTANT uint kLightSpot = 2u;
+LICHT_CONSTANT uint kLightDirectional = 3u;
+LICHT_CONSTANT uint kLightEnvironment = 4u;
+
+struct LightRecord {
+    vec3 position;     // punctual: world
+    uint kind;
+    vec3 direction;    // the way the light travels, unit
+    float range;       // metres; 0: unlimited
+    vec3 intensity;    // cd, or lux when directional
+    float cone_scale;  // spot: smooth factor = clamp(cos * scale + offset, 0, 1)^2
+    uint instance;     // triangle: its hit record
+    uint primitive;
+    float pmf;         // probability that the table picks this light
+    float cone_offset;
+};
+
+// One column of an alias table (Walker 1974; Vose 1991): keep this entry when u < threshold, else take `alias`.
+struct AliasRecord {
+    float threshold;
+    uint alias;
+    float pmf;
+    uint reserved;
+};
+
+// The camera. All directions in world space; positions are taken relative to the eye before anything is rotated, so that a scene far from
+// the origin loses no bits.
+struct ViewRecord {
+    vec3 eye;
+    uint orthographic;
+    vec3 right;        // unit
+    float scale_x;     // perspective: tan(half angle); orthographic: half width
+    vec3 up;           // unit
+    float scale_y;
+    vec3 back;         // unit: the camera looks along -back
+    float z_near;
+    uvec2 size;        // pixels
+    uint reserved0;
+    uint reserved1;
+};
+
+struct FrameRecord {
+    ViewRecord view;
+    ViewRecord previous_view;
+    uint light_count;
+    uint environment_light;  // index in the light table; kNoIndex: none
+    uvec2 environment_size;
+    uint bounces;
+    uint roulette_start;     // first bounce that may end a path by chance
+    uint seed;
+    uint extra_uv_sets;
+};
+
+// Push constants of the passes that draw samples.
+struct SamplePush {
+    uint sample_index;    // of this frame
+    uint count_before;    // samples already in the history
+    uint first_row;       // of this slice
+    uint row_count;
+};
+
+// Counted on the device, summed on the host.
+struct CounterRecord {
+    uint bounce_rays;
+    uint shadow_rays;
+    uint nonfinite_samples;
+    uint reserved;
+};
+
+struct TonemapPush {
+    float exposure;   // factor 2^EV
+    uint curve;       // kTonemap...
+    uint swap_red_blue;
+    uint reserved;
+};
+
+LICHT_CONSTANT uint kTonemapNone = 0u;
+LICHT_CONSTANT uint kTonemapNeutral = 1u;
+LICHT_CONSTANT uint kTonemapAgx = 2u;
+LICHT_CONSTANT uint kTonemapAces = 3u;
+
+LICHT_SHARED_END
+#endif
