@@ -4,7 +4,8 @@
 
 namespace licht {
 
-/// Bad input or usage: a file, an object in it, or an option is wrong. The text is one line that names all three. Exit code 2.
+/// Bad input or usage: a file, an object in it, or an option is wrong. The text is one line that names all
+/// three. Exit code 2.
 class InputError : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;

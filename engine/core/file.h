@@ -8,16 +8,23 @@
 
 namespace licht {
 
-/// Reads a whole regular file. Throws InputError naming the file when it is missing, a folder, no regular file (device, FIFO),
-/// unreadable, or larger than max_bytes.
-std::vector<std::byte> readFile(const std::filesystem::path& path, std::uint64_t max_bytes = std::uint64_t{4} << 30U);
+/// The size in bytes of a regular file, known without opening it (opening a FIFO would wait for its writer).
+/// Throws InputError naming the file when it is missing, a folder, or no regular file (device, FIFO).
+std::uint64_t requireRegularFile(const std::filesystem::path& path);
 
-/// A file that appears under its name complete or not at all: it is written beside its destination and renamed by commit().
-/// Without commit() the destructor removes what was written and the old file stays intact.
+/// Reads a whole regular file. Throws InputError naming the file when it is missing, a folder, no regular
+/// file (device, FIFO), unreadable, or larger than max_bytes.
+std::vector<std::byte> readFile(const std::filesystem::path& path,
+                                std::uint64_t max_bytes = std::uint64_t{4} << 30U);
+
+/// A file that appears under its name complete or not at all: it is written beside its destination and
+/// renamed by commit(). Without commit() the destructor removes what was written and the old file stays
+/// intact.
 class AtomicFile {
 public:
     /// Creates the temporary file at once, so that an unwritable destination is known early.
-    /// Throws InputError when the destination is a folder or its folder is missing or not writable.
+    /// Throws InputError when the destination is empty, a folder or a device, or its folder is missing or not
+    /// writable.
     explicit AtomicFile(std::filesystem::path destination);
     AtomicFile(const AtomicFile&) = delete;
     AtomicFile& operator=(const AtomicFile&) = delete;

@@ -28,7 +28,8 @@ using glm::vec4;
 inline constexpr float kPi = std::numbers::pi_v<float>;
 inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-/// Points origin + t * direction for t in the half-open range [t_min, t_max). The direction need not have length one.
+/// Points origin + t * direction for t in the half-open range [t_min, t_max). The direction need not have
+/// length one.
 struct Ray {
     vec3 origin{0.0F};
     vec3 direction{0.0F, 0.0F, -1.0F};
@@ -49,7 +50,9 @@ struct Bounds {
         lower = glm::min(lower, other.lower);
         upper = glm::max(upper, other.upper);
     }
-    [[nodiscard]] bool empty() const { return !(lower.x <= upper.x && lower.y <= upper.y && lower.z <= upper.z); }
+    [[nodiscard]] bool empty() const {
+        return !(lower.x <= upper.x && lower.y <= upper.y && lower.z <= upper.z);
+    }
     [[nodiscard]] vec3 centre() const { return 0.5F * lower + 0.5F * upper; }
     [[nodiscard]] vec3 size() const { return empty() ? vec3(0.0F) : upper - lower; }
     /// Half of the surface area, the measure the surface area heuristic compares.

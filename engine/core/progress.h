@@ -11,14 +11,15 @@ struct ProgressState {
     std::uint64_t samples = 0;
     std::uint64_t samples_wanted = 0;  ///< 0: no sample limit
     double seconds = 0.0;
-    double error = -1.0;         ///< estimated relative error
+    double error = -1.0;  ///< estimated relative error
     double seconds_left = -1.0;
 };
 
 /// "16/64 samples  3.2 s  error 0.12  9.6 s left"
 std::string progressText(const ProgressState& state);
 
-/// One line that rewrites itself on a terminal, at most ten times a second; silent when the stream is no terminal or quiet is asked.
+/// One line that rewrites itself on a terminal, at most ten times a second; silent when the stream is no
+/// terminal or quiet is asked.
 class ProgressLine {
 public:
     ProgressLine(std::FILE* stream, bool quiet);

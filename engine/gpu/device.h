@@ -21,29 +21,38 @@ std::string_view resultName(VkResult result);
 struct DeviceReport {
     std::uint32_t index = 0;  ///< in the order of enumeration
     std::string name;
-    std::string driver;       ///< driver name and version text
-    std::string api_version;  ///< "1.3.230"
-    std::string type;         ///< "cpu", "discrete gpu", "integrated gpu", "virtual gpu", "other"
+    std::string driver;                 ///< driver name and version text
+    std::string api_version;            ///< "1.3.230"
+    std::string type;                   ///< "cpu", "discrete gpu", "integrated gpu", "virtual gpu", "other"
     std::vector<std::string> refusals;  ///< every reason; empty: usable
     bool chosen = false;
 };
 
 struct DeviceOptions {
     std::string device;       ///< name (part of it, case-insensitive) or index; empty: the best usable one
-    bool validation = false;  ///< Khronos validation layer with synchronisation validation; throws DeviceError when the layer is missing
+    bool validation = false;  ///< Khronos validation layer with synchronisation validation; throws
+                              ///< DeviceError when the layer is missing
     /// Instance extensions that presentation needs (GLFW names them); empty: headless.
     std::vector<std::string> instance_extensions;
-    /// Makes the surface that the queue family must be able to present to; called once with the instance. Null: headless. The device destroys it.
+    /// Makes the surface that the queue family must be able to present to; called once with the instance.
+    /// Null: headless. The device destroys it.
     std::function<VkSurfaceKHR(VkInstance)> create_surface;
+    /// Told every validation message at once, also those of the device's own destruction. May be called from
+    /// any thread.
+    std::function<void(const std::string&)> on_validation_message;
 };
 
-/// Every device with its refusals; `chosen` marks the one that `options` would take. Throws DeviceError when there is no Vulkan loader or driver.
+/// Every device with its refusals; `chosen` marks the one that `options` would take. Throws DeviceError when
+/// there is no Vulkan loader or driver.
 std::vector<DeviceReport> listDevices(const DeviceOptions& options);
 
-/// Instance, device and one queue for graphics, compute and transfer. Vulkan 1.3 core: dynamic rendering, synchronization2 (both required features).
+/// Instance, device and one queue for graphics, compute and transfer. Vulkan 1.3 core: dynamic rendering,
+/// synchronization2 (both required features).
 class Device {
 public:
-    /// Throws InputError when options.device names no usable device (all reasons in the text), DeviceError when creation fails.
+    /// Throws InputError when options.device names no usable device (all reasons in the text), DeviceError
+    /// when creation fails. LICHT_VALIDATION=1 in the environment turns validation on as well and prints
+    /// every message to stderr at destruction.
     explicit Device(const DeviceOptions& options);
     Device(const Device&) = delete;
     Device& operator=(const Device&) = delete;
@@ -59,9 +68,11 @@ public:
     [[nodiscard]] const VkPhysicalDeviceLimits& limits() const { return limits_; }
     [[nodiscard]] VkPipelineCache pipelineCache() const { return pipeline_cache_; }
 
-    /// Memory of that kind for these requirements; counted in deviceBytes(). Throws DeviceError with the size that did not fit.
-    [[nodiscard]] VkDeviceMemory allocate(const VkMemoryRequirements& requirements, VkMemoryPropertyFlags wanted,
-                                          VkMemoryPropertyFlags preferred, std::string_view name);
+    /// Memory of that kind for these requirements; counted in deviceBytes(). Throws DeviceError with the size
+    /// that did not fit.
+    [[nodiscard]] VkDeviceMemory allocate(const VkMemoryRequirements& requirements,
+                                          VkMemoryPropertyFlags wanted, VkMemoryPropertyFlags preferred,
+                                          std::string_view name);
     void release(VkDeviceMemory memory, VkDeviceSize size);
     /// Bytes of device memory held now, and the most ever held.
     [[nodiscard]] std::uint64_t deviceBytes() const { return device_bytes_; }
@@ -73,11 +84,19 @@ public:
     /// Names the object for debuggers and validation messages, where debug utils are there.
     void setName(VkObjectType type, std::uint64_t handle, std::string_view name) const;
     [[nodiscard]] bool hasDebugUtils() const { return debug_utils_; }
+    /// A named group of commands for debuggers, where debug utils are there.
+    void beginLabel(VkCommandBuffer commands, const char* name) const;
+    void endLabel(VkCommandBuffer commands) const;
+    /// Bits of a timestamp that count; 0: the queue has no timestamps.
+    [[nodiscard]] std::uint32_t timestampBits() const { return timestamp_bits_; }
 
     void waitIdle() const;
 
 private:
     struct Messages;
+    Device();
+    void createInstance(const DeviceOptions& options);
+    void createDevice(bool presents);
     VkInstance instance_ = VK_NULL_HANDLE;
     VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
     VkSurfaceKHR surface_ = VK_NULL_HANDLE;
@@ -90,6 +109,10 @@ private:
     VkPhysicalDeviceMemoryProperties memory_properties_{};
     DeviceReport report_;
     bool debug_utils_ = false;
+    std::uint32_t timestamp_bits_ = 0;
+    PFN_vkSetDebugUtilsObjectNameEXT set_name_ = nullptr;
+    PFN_vkCmdBeginDebugUtilsLabelEXT begin_label_ = nullptr;
+    PFN_vkCmdEndDebugUtilsLabelEXT end_label_ = nullptr;
     std::uint64_t device_bytes_ = 0;
     std::uint64_t device_peak_bytes_ = 0;
     std::unique_ptr<Messages> messages_;

@@ -32,8 +32,9 @@ struct Reflection {
 };
 Reflection reflect(Spirv spirv);
 
-/// Name, offset and size of each member of the first struct called `name` that a buffer or push-constant block of the module reaches
-/// (nested ones too, as "view.eye"); empty when there is none. Also the struct's stride as the member "". For the test that compares records with their C++ twins.
+/// Name, offset and size of each member of the first struct called `name` that a buffer or push-constant
+/// block of the module reaches (nested ones too, as "view.eye"); empty when there is none. Also the struct's
+/// stride as the member "". For the test that compares records with their C++ twins.
 struct ReflectedMember {
     std::string name;
     std::uint32_t offset = 0;
@@ -44,7 +45,8 @@ std::vector<ReflectedMember> reflectStruct(Spirv spirv, const std::string& name)
 /// Values for specialisation constants by id (bool as 0/1). Ids that a module does not declare are ignored.
 using SpecConstants = std::map<std::uint32_t, std::uint32_t>;
 
-/// Fixed state of a raster program. Depth is reversed: nearer is greater. Viewport, scissor and cull mode are dynamic.
+/// Fixed state of a raster program. Depth is reversed: nearer is greater. Viewport, scissor and cull mode are
+/// dynamic.
 struct RasterState {
     std::vector<VkFormat> color_formats;
     VkFormat depth_format = VK_FORMAT_UNDEFINED;  ///< undefined: no depth
@@ -55,7 +57,8 @@ class Program {
 public:
     Program() = default;
     static Program compute(Device& device, std::string name, Spirv shader, const SpecConstants& constants);
-    static Program raster(Device& device, std::string name, Spirv vertex, Spirv fragment, const RasterState& state, const SpecConstants& constants);
+    static Program raster(Device& device, std::string name, Spirv vertex, Spirv fragment,
+                          const RasterState& state, const SpecConstants& constants);
     Program(Program&& other) noexcept;
     Program& operator=(Program&& other) noexcept;
     ~Program();
@@ -98,8 +101,9 @@ struct BoundResource {
     Resource resource;
 };
 
-/// A descriptor set for one program, resources matched by the names in its GLSL. Throws DeviceError naming program and binding when one is
-/// missing; names that the program does not declare are ignored, so that one list of resources serves several programs.
+/// A descriptor set for one program, resources matched by the names in its GLSL. Throws DeviceError naming
+/// program and binding when one is missing; names that the program does not declare are ignored, so that one
+/// list of resources serves several programs.
 class Bindings {
 public:
     Bindings() = default;

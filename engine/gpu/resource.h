@@ -9,16 +9,21 @@ namespace licht::gpu {
 
 /// What was last done to a resource; Commands derives barriers from it.
 struct ResourceState {
-    VkPipelineStageFlags2 stages = VK_PIPELINE_STAGE_2_NONE;
-    VkAccessFlags2 access = VK_ACCESS_2_NONE;
-    bool written = false;
+    VkPipelineStageFlags2 write_stages = VK_PIPELINE_STAGE_2_NONE;  ///< of the last write or layout change
+    VkAccessFlags2 write_access = VK_ACCESS_2_NONE;
+    VkPipelineStageFlags2 read_stages = VK_PIPELINE_STAGE_2_NONE;  ///< that have read since
+    VkPipelineStageFlags2 seen_stages = VK_PIPELINE_STAGE_2_NONE;  ///< to which the last write is visible
+    VkAccessFlags2 seen_access = VK_ACCESS_2_NONE;
     VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
 };
 
+/// Bytes of one texel; throws DeviceError for a format that the engine does not use.
+std::uint32_t texelBytes(VkFormat format);
+
 enum class Memory {
-    device,     ///< device-local
-    host_write, ///< mapped; the host writes, the device reads
-    host_read,  ///< mapped, cached where there is such memory; the device writes, the host reads
+    device,      ///< device-local
+    host_write,  ///< mapped; the host writes, the device reads
+    host_read,   ///< mapped, cached where there is such memory; the device writes, the host reads
 };
 
 class Buffer {
@@ -49,8 +54,10 @@ private:
     std::byte* mapped_ = nullptr;
 };
 
-/// A device-local buffer filled with these bytes through a staging copy; complete when it returns. VK_BUFFER_USAGE_TRANSFER_DST_BIT is added.
-Buffer uploadBuffer(Device& device, std::string name, std::span<const std::byte> bytes, VkBufferUsageFlags usage);
+/// A device-local buffer filled with these bytes through a staging copy; complete when it returns.
+/// VK_BUFFER_USAGE_TRANSFER_DST_BIT is added.
+Buffer uploadBuffer(Device& device, std::string name, std::span<const std::byte> bytes,
+                    VkBufferUsageFlags usage);
 
 template <typename T>
 Buffer uploadBuffer(Device& device, std::string name, std::span<const T> values, VkBufferUsageFlags usage) {

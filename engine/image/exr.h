@@ -8,7 +8,8 @@
 
 namespace licht {
 
-/// One channel plane of an EXR file under the ecosystem's name ("R", "albedo.R", "N.X", "Z", ...), width * height floats.
+/// One channel plane of an EXR file under the ecosystem's name ("R", "albedo.R", "N.X", "Z", ...), width *
+/// height floats.
 struct ExrChannel {
     std::string name;
     std::vector<float> values;
@@ -29,8 +30,8 @@ struct ExrPicture {
 /// Throws InputError when the place is not writable, DeviceError when writing fails.
 void writeExr(const std::filesystem::path& path, const ExrPicture& picture);
 
-/// Reads every channel of a flat single-part file as float. Throws InputError naming file and reason: truncated, deep, multi-part,
-/// larger than kMaxImageSide a side, chroma-subsampled.
+/// Reads every channel of a flat single-part file as float. Throws InputError naming file and reason:
+/// truncated, deep, multi-part, larger than kMaxImageSide a side, chroma-subsampled.
 ExrPicture readExr(const std::filesystem::path& path);
 
 inline constexpr int kMaxImageSide = 32768;

@@ -11,11 +11,12 @@
 
 namespace licht {
 
-/// Writes display-referred values in [0,1] (already transfer-encoded; 1, 3 or 4 channels) as an 8-bit PNG, complete or not at all.
+/// Writes display-referred values in [0,1] (already transfer-encoded; 1, 3 or 4 channels) as an 8-bit PNG,
+/// complete or not at all.
 void writePng(const std::filesystem::path& path, const Image& picture);
 
-/// A radiance map: .hdr (Radiance RGBE) or .exr, three channels of linear Rec. 709. Non-finite or negative texels become 0 and
-/// are counted in *replaced. Throws InputError naming file and reason.
+/// A radiance map: .hdr (Radiance RGBE) or .exr, three channels of linear Rec. 709. Non-finite or negative
+/// values become 0; *replaced counts the texels that had one. Throws InputError naming file and reason.
 Image readRadianceMap(const std::filesystem::path& path, std::size_t* replaced = nullptr);
 
 /// Texels as stored in a PNG or JPEG, always four channels.
@@ -26,8 +27,8 @@ struct EncodedImage {
     std::vector<std::uint8_t> bytes;  ///< RGBA, 16 bit little-endian
 };
 
-/// Decodes PNG or JPEG bytes, judged by content. The header is read first: more than kMaxImageSide a side or 2^28 texels is refused.
-/// Throws InputError with `name` and the reason.
+/// Decodes PNG or JPEG bytes, judged by content. The header is read first: more than kMaxImageSide a side or
+/// 2^28 texels is refused. Throws InputError with `name` and the reason.
 EncodedImage decodeImage(std::span<const std::byte> bytes, const std::string& name);
 
 }  // namespace licht

@@ -14,11 +14,15 @@ struct Image {
 
     Image() = default;
     Image(int w, int h, int c)
-        : width(w), height(h), channels(c), texels(static_cast<std::size_t>(w) * static_cast<std::size_t>(h) * static_cast<std::size_t>(c)) {}
+        : width(w),
+          height(h),
+          channels(c),
+          texels(static_cast<std::size_t>(w) * static_cast<std::size_t>(h) * static_cast<std::size_t>(c)) {}
 
     [[nodiscard]] std::size_t index(int x, int y, int c) const {
         assert(x >= 0 && x < width && y >= 0 && y < height && c >= 0 && c < channels);
-        return (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) * static_cast<std::size_t>(channels) +
+        return (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) *
+                   static_cast<std::size_t>(channels) +
                static_cast<std::size_t>(c);
     }
     [[nodiscard]] float& at(int x, int y, int c) { return texels[index(x, y, c)]; }

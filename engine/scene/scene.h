@@ -16,6 +16,12 @@ namespace licht {
 
 inline constexpr std::uint32_t kNone = 0xffffffffU;
 
+/// Coordinates beyond this (metres) are no geometry: squared distances of such points leave the range of a float.
+inline constexpr float kMaxCoordinate = 1.8e18F;
+
+/// True for a finite point within kMaxCoordinate on every axis.
+bool isPlace(const vec3& point);
+
 /// Texels as stored, RGBA; the colour space is a matter of the slot that reads them.
 struct Texture {
     std::string name;
@@ -69,7 +75,7 @@ struct Material {
 struct Mesh {
     std::string name;
     std::vector<vec3> positions;
-    std::vector<vec3> normals;                ///< unit; empty: flat, from the faces
+    std::vector<vec3> normals;                ///< unit, or zero where a vertex has none; empty: flat, from the faces
     std::vector<vec4> tangents;               ///< w = handedness; empty: derived where a normal map wants them
     std::vector<vec4> colors;                 ///< COLOR_0, linear, alpha in w
     std::vector<std::vector<vec2>> uv_sets;   ///< TEXCOORD_0..n

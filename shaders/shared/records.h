@@ -120,8 +120,8 @@ struct ViewRecord {
     vec3 back;         // unit: the camera looks along -back
     float z_near;
     uvec2 size;        // pixels
-    uint reserved0;
-    uint reserved1;
+    float z_far;       // orthographic: beyond everything; perspective has no far plane
+    uint reserved;
 };
 
 struct FrameRecord {
@@ -134,15 +134,31 @@ struct FrameRecord {
     uint roulette_start;     // first bounce that may end a path by chance
     uint seed;
     uint extra_uv_sets;
+    uint has_sky;         // 1: what hits nothing sees the environment, so the picture is opaque there
+    uint reserved0;
+    uint reserved1;
+    uint reserved2;
 };
 
 // Push constants of the passes that draw samples.
 struct SamplePush {
-    uint sample_index;    // of this frame
+    uint sample_index;    // address of the sample that is drawn
     uint count_before;    // samples already in the history
     uint first_row;       // of this slice
     uint row_count;
 };
+
+// The first dimensions of a sample belong to the camera, then each bounce takes its own few.
+LICHT_CONSTANT uint kDimensionCamera = 0u;
+LICHT_CONSTANT uint kDimensionBounce = 1u;       // + kDimensionsPerBounce * bounce + one of these:
+LICHT_CONSTANT uint kDimensionLight = 0u;
+LICHT_CONSTANT uint kDimensionScatter = 1u;      // and roulette
+LICHT_CONSTANT uint kDimensionEnvironment = 2u;
+LICHT_CONSTANT uint kDimensionsPerBounce = 3u;
+LICHT_CONSTANT uint kDimensionAlpha = 0x80000000u; // + rays traced so far: coverage of partly transparent surfaces
+
+// Specialisation constants beside the effects.
+LICHT_CONSTANT uint kConstantDirectMis = 32u;
 
 // Counted on the device, summed on the host.
 struct CounterRecord {
@@ -155,8 +171,6 @@ struct CounterRecord {
 struct TonemapPush {
     float exposure;   // factor 2^EV
     uint curve;       // kTonemap...
-    uint swap_red_blue;
-    uint reserved;
 };
 
 LICHT_CONSTANT uint kTonemapNone = 0u;

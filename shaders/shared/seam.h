@@ -3,12 +3,14 @@
 #define LICHT_SHARED_SEAM_H
 
 #ifdef __cplusplus
+#include <cmath>
 #include <cstdint>
 #include <glm/glm.hpp>
 #define LICHT_SHARED_BEGIN \
     namespace licht {      \
     using uint = std::uint32_t;     \
     using glm::mat4;       \
+    using std::pow;        \
     using glm::uvec2;      \
     using glm::uvec3;      \
     using glm::uvec4;      \
@@ -17,10 +19,12 @@
     using glm::vec4;
 #define LICHT_SHARED_END }
 #define LICHT_CONSTANT inline constexpr
+#define LICHT_FUNCTION inline
 #else
 #define LICHT_SHARED_BEGIN
 #define LICHT_SHARED_END
 #define LICHT_CONSTANT const
+#define LICHT_FUNCTION
 #endif
 
 #endif

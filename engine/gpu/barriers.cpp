@@ -1,0 +1,211 @@
+// From declared uses to barriers.
+#include <fmt/format.h>
+
+#include "licht/core/error.h"
+#include "licht/gpu/commands.h"
+
+namespace licht::gpu {
+namespace {
+
+struct AccessInfo {
+    VkPipelineStageFlags2 stages;
+    VkAccessFlags2 reads;
+    VkAccessFlags2 writes;
+    VkImageLayout layout;  ///< of an image
+};
+
+/// The one place that says what an Access means.
+AccessInfo accessInfo(Access access, bool image) {
+    constexpr VkPipelineStageFlags2 kCompute = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+    constexpr VkPipelineStageFlags2 kRaster =
+        VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT;
+    constexpr VkPipelineStageFlags2 kDepth =
+        VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT;
+    // Texel buffers count as sampled.
+    const VkAccessFlags2 shader_read = image ? VK_ACCESS_2_SHADER_STORAGE_READ_BIT
+                                             : VK_ACCESS_2_SHADER_STORAGE_READ_BIT |
+                                                   VK_ACCESS_2_SHADER_SAMPLED_READ_BIT |
+                                                   VK_ACCESS_2_UNIFORM_READ_BIT;
+    const VkAccessFlags2 raster_read = image ? VK_ACCESS_2_SHADER_SAMPLED_READ_BIT : shader_read;
+    constexpr VkAccessFlags2 kShaderWrite = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
+    switch (access) {
+        case Access::compute_read:
+            return {kCompute, shader_read, 0, VK_IMAGE_LAYOUT_GENERAL};
+        case Access::compute_write:
+            return {kCompute, 0, kShaderWrite, VK_IMAGE_LAYOUT_GENERAL};
+        case Access::compute_read_write:
+            return {kCompute, shader_read, kShaderWrite, VK_IMAGE_LAYOUT_GENERAL};
+        case Access::compute_sample:
+            return {kCompute, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT, 0,
+                    VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+        case Access::raster_read:
+            return {kRaster, raster_read, 0, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+        case Access::color_target:
+            return {VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT, VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT,
+                    VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
+        case Access::depth_target:
+            return {kDepth, VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT,
+                    VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL};
+        case Access::transfer_read:
+            return {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_READ_BIT, 0,
+                    VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL};
+        case Access::transfer_write:
+            return {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, 0, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                    VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL};
+        case Access::present:
+            break;
+    }
+    // Presentation waits for a semaphore, which is all the visibility it needs.
+    return {VK_PIPELINE_STAGE_2_NONE, 0, 0, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR};
+}
+
+/// One side of a dependency each.
+struct Scopes {
+    VkPipelineStageFlags2 from_stages = VK_PIPELINE_STAGE_2_NONE;
+    VkAccessFlags2 from_access = VK_ACCESS_2_NONE;
+    VkPipelineStageFlags2 to_stages = VK_PIPELINE_STAGE_2_NONE;
+    VkAccessFlags2 to_access = VK_ACCESS_2_NONE;
+    bool needed = false;
+};
+
+/// What must be waited for before this access, and the state of the resource after it. A change of layout
+/// counts as a write.
+Scopes advance(ResourceState& state, const AccessInfo& use, bool new_layout) {
+    Scopes scopes;
+    scopes.from_stages = state.write_stages;
+    scopes.from_access = state.write_access;
+    scopes.to_stages = use.stages;
+    scopes.to_access = use.reads | use.writes;
+    if (use.writes != 0 || new_layout) {
+        scopes.from_stages |= state.read_stages;
+        scopes.needed = new_layout || scopes.from_stages != VK_PIPELINE_STAGE_2_NONE;
+        state.write_stages = use.stages;
+        state.write_access = use.writes;
+        state.read_stages = use.writes != 0 ? VK_PIPELINE_STAGE_2_NONE : use.stages;
+        // A new layout is visible to the reader it was made for; a write is visible to nobody yet.
+        state.seen_stages = use.writes != 0 ? VK_PIPELINE_STAGE_2_NONE : use.stages;
+        state.seen_access = use.writes != 0 ? VK_ACCESS_2_NONE : use.reads;
+        return scopes;
+    }
+    const bool seen = (use.stages & ~state.seen_stages) == 0 && (use.reads & ~state.seen_access) == 0;
+    scopes.needed = state.write_stages != VK_PIPELINE_STAGE_2_NONE && !seen;
+    if (scopes.needed) {
+        // The barrier covers earlier readers again, so that every seen stage has seen every seen access.
+        state.seen_stages |= use.stages;
+        state.seen_access |= use.reads;
+        scopes.to_stages = state.seen_stages;
+        scopes.to_access = state.seen_access;
+    }
+    state.read_stages |= use.stages;
+    return scopes;
+}
+
+/// Each resource once, with the sum of what the pass does to it.
+struct MergedUse {
+    const Buffer* buffer = nullptr;
+    const Image* image = nullptr;
+    AccessInfo access{};
+};
+
+std::vector<MergedUse> merge(std::span<const Use> uses) {
+    std::vector<MergedUse> merged;
+    for (const Use& use : uses) {
+        const auto* const* buffer = std::get_if<const Buffer*>(&use.resource);
+        const auto* const* image = std::get_if<const Image*>(&use.resource);
+        MergedUse next{buffer != nullptr ? *buffer : nullptr, image != nullptr ? *image : nullptr,
+                       accessInfo(use.access, image != nullptr)};
+        bool found = false;
+        for (MergedUse& known : merged) {
+            if (known.buffer != next.buffer || known.image != next.image) {
+                continue;
+            }
+            if (known.image != nullptr && known.access.layout != next.access.layout) {
+                throw DeviceError(
+                    fmt::format("a pass uses the image '{}' in two layouts at once", known.image->name()));
+            }
+            known.access.stages |= next.access.stages;
+            known.access.reads |= next.access.reads;
+            known.access.writes |= next.access.writes;
+            found = true;
+        }
+        if (!found) {
+            merged.push_back(next);
+        }
+    }
+    return merged;
+}
+
+}  // namespace
+
+void Commands::barrier(std::span<const Use> uses) {
+    std::vector<VkBufferMemoryBarrier2> buffers;
+    std::vector<VkImageMemoryBarrier2> images;
+    for (const MergedUse& use : merge(uses)) {
+        if (use.buffer != nullptr) {
+            const Scopes scopes = advance(use.buffer->state, use.access, false);
+            if (scopes.needed) {
+                VkBufferMemoryBarrier2 barrier{};
+                barrier.sType = VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER_2;
+                barrier.srcStageMask = scopes.from_stages;
+                barrier.srcAccessMask = scopes.from_access;
+                barrier.dstStageMask = scopes.to_stages;
+                barrier.dstAccessMask = scopes.to_access;
+                barrier.srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+                barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+                barrier.buffer = use.buffer->handle();
+                barrier.size = VK_WHOLE_SIZE;
+                buffers.push_back(barrier);
+            }
+            continue;
+        }
+        const VkImageLayout old_layout = use.image->state.layout;
+        const Scopes scopes = advance(use.image->state, use.access, old_layout != use.access.layout);
+        use.image->state.layout = use.access.layout;
+        if (scopes.needed) {
+            VkImageMemoryBarrier2 barrier{};
+            barrier.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2;
+            barrier.srcStageMask = scopes.from_stages;
+            barrier.srcAccessMask = scopes.from_access;
+            barrier.dstStageMask = scopes.to_stages;
+            barrier.dstAccessMask = scopes.to_access;
+            barrier.oldLayout = old_layout;
+            barrier.newLayout = use.access.layout;
+            barrier.srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+            barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+            barrier.image = use.image->handle();
+            barrier.subresourceRange = {use.image->aspect(), 0, 1, 0, 1};
+            images.push_back(barrier);
+        }
+    }
+    if (buffers.empty() && images.empty()) {
+        return;
+    }
+    VkDependencyInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
+    info.bufferMemoryBarrierCount = static_cast<std::uint32_t>(buffers.size());
+    info.pBufferMemoryBarriers = buffers.data();
+    info.imageMemoryBarrierCount = static_cast<std::uint32_t>(images.size());
+    info.pImageMemoryBarriers = images.data();
+    vkCmdPipelineBarrier2(command_buffer_, &info);
+}
+
+void Commands::makeVisibleToHost(std::span<const Buffer* const> buffers) {
+    VkMemoryBarrier2 barrier{};
+    barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2;
+    barrier.dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT;
+    barrier.dstAccessMask = VK_ACCESS_2_HOST_READ_BIT;
+    for (const Buffer* buffer : buffers) {
+        barrier.srcStageMask |= buffer->state.write_stages;
+        barrier.srcAccessMask |= buffer->state.write_access;
+    }
+    if (barrier.srcStageMask == VK_PIPELINE_STAGE_2_NONE) {
+        return;
+    }
+    VkDependencyInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
+    info.memoryBarrierCount = 1;
+    info.pMemoryBarriers = &barrier;
+    vkCmdPipelineBarrier2(command_buffer_, &info);
+}
+
+}  // namespace licht::gpu

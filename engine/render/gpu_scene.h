@@ -1,0 +1,72 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "licht/bvh/bvh.h"
+#include "licht/gpu/program.h"
+#include "licht/gpu/resource.h"
+#include "licht/scene/effects.h"
+#include "licht/scene/scene.h"
+#include "licht/shared/records.h"
+
+namespace licht {
+
+/// The scene on the device: world-space triangles, materials, texels, lights and the BVH. A buffer exists only where an effect calls for it;
+/// programs that name an absent one are bound to a few zero bytes and, being specialised, never read them.
+class GpuScene {
+public:
+    struct Options {
+        bool sample_surfaces_and_sky = true;
+        bool storage_buffer_bvh = false;
+    };
+
+    /// Throws InputError, with the numbers, where the scene is larger than the device's buffers may be.
+    GpuScene(gpu::Device& device, const Scene& scene, const Effects& effects, const Options& options);
+
+    /// Every buffer and image by its name in the shaders.
+    [[nodiscard]] std::vector<gpu::BoundResource> resources() const;
+    /// What the scene says to every frame: counts, sizes, seeds are the caller's.
+    void describe(FrameRecord& frame) const;
+    /// Constants beside the effects: how the BVH is fetched and how deep its stack is.
+    [[nodiscard]] gpu::SpecConstants constants() const;
+
+    struct Draw {
+        uint first_vertex;
+        uint vertex_count;
+        bool double_sided;
+    };
+    [[nodiscard]] const std::vector<Draw>& draws() const { return draws_; }  ///< one per instance, in order
+    [[nodiscard]] const Bounds& bounds() const { return bounds_; }
+    [[nodiscard]] double bvhSeconds() const { return bvh_seconds_; }
+    [[nodiscard]] std::uint32_t bvhDropped() const { return bvh_dropped_; }
+
+private:
+    void uploadGeometry(const Scene& scene, const Effects& effects, const std::vector<uint>& first_light, bool storage_buffer_bvh);
+    void uploadBvh(const std::vector<BvhTriangle>& triangles, bool storage);
+    void uploadMaterials(const Scene& scene, const Effects& effects);
+    void uploadTexels(const Scene& scene);
+    void uploadLights(const Scene& scene, const Effects& effects, bool sample_surfaces_and_sky, std::vector<uint>& first_light);
+    template <typename T>
+    gpu::Buffer upload(const char* name, const std::vector<T>& values, VkBufferUsageFlags usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+
+    gpu::Device* device_;
+    gpu::Buffer none_, vertices_, triangle_indices_, instances_, materials_, tangents_, colors_, extra_uvs_, textures_, srgb_table_;
+    gpu::Buffer triangle_instances_, triangle_ids_, nodes_, bvh_triangles_, lights_, light_alias_, environment_alias_;
+    std::vector<gpu::Buffer> texel_pages_;
+    gpu::TexelView nodes_view_, children_view_, triangles_view_;
+    gpu::Image environment_map_;
+    gpu::Sampler sampler_;
+    std::vector<Draw> draws_;
+    Bounds bounds_;
+    uvec2 environment_size_{1, 1};
+    uint light_count_ = 0;
+    uint environment_light_ = kNoIndex;
+    uint extra_uv_sets_ = 0;
+    uint has_sky_ = 0;
+    uint stack_size_ = 1;
+    bool bvh_in_storage_ = false;
+    double bvh_seconds_ = 0.0;
+    std::uint32_t bvh_dropped_ = 0;
+};
+
+}  // namespace licht

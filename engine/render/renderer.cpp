@@ -1,0 +1,271 @@
+#include "licht/render/renderer.h"
+
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <optional>
+
+#include "licht/core/error.h"
+#include "licht/render/film.h"
+#include "licht/render/gpu_scene.h"
+#include "licht/render/history.h"
+#include "licht/render/passes.h"
+#include "licht/render/programs.h"
+#include "licht/render/view.h"
+
+namespace licht {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+// A submission that runs longer than this meets the watchdogs of desktop systems (about two seconds) on a slow moment.
+constexpr double kSliceSeconds = 0.1;
+
+// Means over this many samples are as good as exact for the layers, and their plain fp32 sums cannot stall.
+constexpr std::uint32_t kMostLayerSamples = 4096;
+
+gpu::SpecConstants constantsOf(const Effects& effects, const GpuScene& scene, const RenderSettings& settings) {
+    gpu::SpecConstants constants = scene.constants();
+    for (uint effect = 0; effect < kEffectCount; ++effect) constants[effect] = effects.has(effect) ? 1U : 0U;
+    constants[kConstantDirectMis] = settings.direct == DirectLight::mis ? 1U : 0U;
+    return constants;
+}
+
+// One of the two submissions in flight.
+struct Slot {
+    Slot(gpu::Device& device, const char* name)
+        : commands(device),
+          counters(device, name, sizeof(CounterRecord), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Memory::host_read) {
+        std::memset(counters.mapped(), 0, sizeof(CounterRecord));
+    }
+    gpu::Commands commands;
+    gpu::Buffer counters;
+    gpu::Bindings path;
+};
+
+}  // namespace
+
+struct Renderer::State {
+    State(gpu::Device& d, const Scene& scene, const Camera& c, const RenderSettings& s)
+        : device(d),
+          settings(s),
+          camera(c),
+          effects(s.all_effects ? allEffects() : detectEffects(scene)),
+          upload_start(Clock::now()),
+          gpu_scene(d, scene, effects, {s.direct == DirectLight::mis, s.storage_buffer_bvh}),
+          frame_buffer(d, "frame", sizeof(FrameRecord), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, gpu::Memory::host_write),
+          slots{Slot(d, "counters 0"), Slot(d, "counters 1")} {
+        statistics.bvh_seconds = gpu_scene.bvhSeconds();
+        statistics.upload_seconds = secondsSince(upload_start) - statistics.bvh_seconds;
+        const Clock::time_point start = Clock::now();
+        programs.emplace(device, constantsOf(effects, gpu_scene, settings), settings.aovs.any());
+        statistics.pipeline_seconds = secondsSince(start);
+        resize(settings.size);
+    }
+
+    void resize(uvec2 size);
+    void writeFrame(const ViewRecord& view, const ViewRecord& previous);
+    Slot& nextSlot();
+    void collect(Slot& slot);
+    std::uint32_t rowsPerSlice() const;
+
+    gpu::Device& device;
+    RenderSettings settings;
+    Camera camera;
+    Effects effects;
+    Clock::time_point upload_start;
+    GpuScene gpu_scene;
+    gpu::Buffer frame_buffer;
+    std::optional<Programs> programs;
+    std::array<Slot, 2> slots;
+    std::size_t next_slot = 0;
+    std::optional<History> history;
+    gpu::Bindings gbuffer_bindings, accumulate_bindings, layer_bindings, tonemap_bindings;
+    ViewRecord view{};
+    RenderStatistics statistics;
+};
+
+void Renderer::State::resize(uvec2 size) {
+    settings.size = size;
+    history.reset();
+    history.emplace(device, size, settings.aovs.any());
+    std::vector<gpu::BoundResource> resources = gpu_scene.resources();
+    for (const gpu::BoundResource& r : history->resources()) resources.push_back(r);
+    resources.push_back({"FrameBlock", &frame_buffer});
+    gbuffer_bindings = gpu::Bindings(device, programs->gbuffer, resources);
+    accumulate_bindings = gpu::Bindings(device, programs->accumulate, resources);
+    tonemap_bindings = gpu::Bindings(device, programs->tonemap, resources);
+    if (settings.aovs.any()) layer_bindings = gpu::Bindings(device, programs->layers, resources);
+    for (Slot& slot : slots) {
+        std::vector<gpu::BoundResource> with_counters = resources;
+        with_counters.push_back({"Counters", &slot.counters});
+        slot.path = gpu::Bindings(device, programs->path, with_counters);
+    }
+    view = makeView(camera, size, gpu_scene.bounds());
+    writeFrame(view, view);
+}
+
+void Renderer::State::writeFrame(const ViewRecord& now, const ViewRecord& previous) {
+    FrameRecord frame{};
+    frame.view = now;
+    frame.previous_view = previous;
+    frame.bounces = settings.bounces;
+    frame.roulette_start = settings.roulette_start;
+    frame.seed = settings.seed;
+    gpu_scene.describe(frame);
+    std::memcpy(frame_buffer.mapped(), &frame, sizeof(frame));
+}
+
+void Renderer::State::collect(Slot& slot) {
+    slot.commands.wait();
+    CounterRecord counts;
+    std::memcpy(&counts, slot.counters.mapped(), sizeof(counts));
+    std::memset(slot.counters.mapped(), 0, sizeof(counts));
+    statistics.bounce_rays += counts.bounce_rays;
+    statistics.shadow_rays += counts.shadow_rays;
+    statistics.nonfinite_samples += counts.nonfinite_samples;
+}
+
+Slot& Renderer::State::nextSlot() {
+    Slot& slot = slots[next_slot];
+    next_slot = 1 - next_slot;
+    collect(slot);
+    slot.commands.begin();
+    return slot;
+}
+
+// Work is sliced by measured time. The picture does not depend on it: a sample is a function of its address alone.
+std::uint32_t Renderer::State::rowsPerSlice() const {
+    double seconds = 0.0;
+    for (const Slot& slot : slots) {
+        const auto time = slot.commands.times().find("path");
+        if (time != slot.commands.times().end()) seconds += time->second.seconds;
+    }
+    const double rows_done = static_cast<double>(history->samples) * settings.size.y;
+    if (seconds <= 0.0 || rows_done <= 0.0) return std::min(settings.size.y, 128U);
+    const double rows = std::clamp(kSliceSeconds * rows_done / seconds, 8.0, static_cast<double>(settings.size.y));
+    return static_cast<std::uint32_t>(rows);
+}
+
+Renderer::Renderer(gpu::Device& device, const Scene& scene, const Camera& camera, const RenderSettings& settings)
+    : state_(std::make_unique<State>(device, scene, camera, settings)) {}
+
+Renderer::~Renderer() {
+    // Nothing may die while the device still reads it; a lost device reads nothing.
+    try {
+        finish();
+    } catch (const DeviceError&) {
+        return;
+    }
+}
+
+void Renderer::renderSample() {
+    State& s = *state_;
+    SamplePush push{};
+    push.sample_index = s.settings.first_sample + s.history->samples;
+    if (push.sample_index < s.settings.first_sample || s.history->samples == 0xffffffffU)
+        throw InputError("the samples of a pixel are numbered by 32 bits, and all of them are used");
+    push.count_before = s.history->samples;
+    const std::uint32_t rows = s.rowsPerSlice();
+    for (push.first_row = 0; push.first_row < s.settings.size.y; push.first_row += rows) {
+        push.row_count = std::min(rows, s.settings.size.y - push.first_row);
+        Slot& slot = s.nextSlot();
+        if (push.first_row == 0) recordGbuffer(slot.commands, s.programs->gbuffer, s.gbuffer_bindings, s.gpu_scene, *s.history, push);
+        recordPath(slot.commands, s.programs->path, slot.path, *s.history, slot.counters, push);
+        if (push.first_row + push.row_count == s.settings.size.y) {
+            recordAccumulate(slot.commands, s.programs->accumulate, s.accumulate_bindings, *s.history, push);
+            if (s.settings.aovs.any() && push.count_before < kMostLayerSamples) {
+                recordLayers(slot.commands, s.programs->layers, s.layer_bindings, *s.history, push);
+                ++s.history->aov_samples;
+            }
+        }
+        const gpu::Buffer* counters = &slot.counters;
+        slot.commands.makeVisibleToHost(std::span(&counters, 1));
+        slot.commands.submit();
+    }
+    ++s.history->samples;
+    s.statistics.primary_rays += std::uint64_t{s.settings.size.x} * s.settings.size.y;
+}
+
+void Renderer::finish() {
+    for (Slot& slot : state_->slots) state_->collect(slot);
+}
+
+std::uint32_t Renderer::samples() const { return state_->history->samples; }
+
+void Renderer::setCamera(const Camera& camera) {
+    State& s = *state_;
+    const ViewRecord view = makeView(camera, s.settings.size, s.gpu_scene.bounds());
+    s.camera = camera;
+    if (std::memcmp(&view, &s.view, sizeof(view)) == 0) return;
+    finish();
+    s.writeFrame(view, s.view);
+    s.view = view;
+    s.history->samples = 0;
+    s.history->aov_samples = 0;
+}
+
+void Renderer::resize(uvec2 size) {
+    finish();
+    state_->resize(size);
+}
+
+Film Renderer::readFilm() {
+    State& s = *state_;
+    finish();
+    Film film;
+    film.size = s.settings.size;
+    film.samples = s.history->samples;
+    if (film.samples == 0) throw DeviceError("no sample has been rendered yet");
+    developBeauty(film, gpu::readImage(s.device, s.history->mean_high), gpu::readImage(s.device, s.history->squares_high));
+    if (s.settings.aovs.any())
+        developLayers(film, s.settings.aovs, s.history->aov_samples, gpu::readImage(s.device, s.history->aov_albedo),
+                      gpu::readImage(s.device, s.history->aov_normal), gpu::readImage(s.device, s.history->aov_motion));
+    return film;
+}
+
+void Renderer::recordDisplay(gpu::Commands& commands, Tonemap curve, float exposure_ev) {
+    State& s = *state_;
+    TonemapPush push{};
+    push.exposure = std::exp2(exposure_ev);
+    push.curve = static_cast<uint>(curve);
+    recordTonemap(commands, s.programs->tonemap, s.tonemap_bindings, *s.history, push);
+}
+
+Image Renderer::readDisplay(Tonemap curve, float exposure_ev) {
+    State& s = *state_;
+    finish();
+    gpu::Commands commands(s.device);
+    commands.begin();
+    recordDisplay(commands, curve, exposure_ev);
+    commands.submit();
+    commands.wait();
+    for (const auto& [name, time] : commands.times()) {
+        s.statistics.passes[name].seconds += time.seconds;
+        s.statistics.passes[name].count += time.count;
+    }
+    const std::vector<std::byte> bytes = gpu::readImage(s.device, s.history->display);
+    Image picture(static_cast<int>(s.settings.size.x), static_cast<int>(s.settings.size.y), 4);
+    for (std::size_t i = 0; i < picture.texels.size(); ++i) picture.texels[i] = static_cast<float>(bytes[i]) / 255.0F;
+    return picture;
+}
+
+const gpu::Image& Renderer::displayImage() const { return state_->history->display; }
+
+const Effects& Renderer::effects() const { return state_->effects; }
+
+RenderStatistics Renderer::statistics() const {
+    RenderStatistics result = state_->statistics;
+    for (const Slot& slot : state_->slots) {
+        for (const auto& [name, time] : slot.commands.times()) {
+            result.passes[name].seconds += time.seconds;
+            result.passes[name].count += time.count;
+        }
+    }
+    return result;
+}
+
+}  // namespace licht

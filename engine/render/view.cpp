@@ -1,0 +1,24 @@
+#include "licht/render/view.h"
+
+#include <cmath>
+
+namespace licht {
+
+ViewRecord makeView(const Camera& camera, uvec2 size, const Bounds& bounds) {
+    ViewRecord view{};
+    view.eye = vec3(camera.world_from_view[3]);
+    view.right = glm::normalize(vec3(camera.world_from_view[0]));
+    view.up = glm::normalize(vec3(camera.world_from_view[1]));
+    view.back = glm::normalize(vec3(camera.world_from_view[2]));
+    const bool orthographic = camera.kind == Camera::Kind::orthographic;
+    view.orthographic = orthographic ? 1U : 0U;
+    view.scale_y = orthographic ? camera.y_extent : std::tan(0.5F * camera.y_fov);
+    view.scale_x = view.scale_y * static_cast<float>(size.x) / static_cast<float>(size.y);
+    view.z_near = camera.z_near;
+    const float reach = bounds.empty() ? 1.0F : glm::length(bounds.centre() - view.eye) + bounds.radius();
+    view.z_far = std::max(2.0F * reach, 2.0F * camera.z_near + 1.0F);
+    view.size = size;
+    return view;
+}
+
+}  // namespace licht

@@ -1,0 +1,184 @@
+#include "licht/scene/gltf_material.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace licht::gltf {
+namespace {
+
+constexpr double kUnlimited = std::numeric_limits<float>::max();
+
+double number(const tinygltf::Value& object, const std::string& key, double fallback) {
+    return object.Has(key) && object.Get(key).IsNumber() ? object.Get(key).GetNumberAsDouble() : fallback;
+}
+
+template <std::size_t kSize>
+std::array<double, kSize> numbers(const tinygltf::Value& object, const std::string& key, double fallback) {
+    std::array<double, kSize> result{};
+    result.fill(fallback);
+    if (object.Has(key)) {
+        const tinygltf::Value& list = object.Get(key);
+        for (std::size_t i = 0; i < std::min(kSize, list.ArrayLen()); ++i) {
+            const tinygltf::Value& entry = list.Get(static_cast<int>(i));
+            result.at(i) = entry.IsNumber() ? entry.GetNumberAsDouble() : fallback;
+        }
+    }
+    return result;
+}
+
+const tinygltf::Value* find(const tinygltf::ExtensionMap& extensions, const std::string& name) {
+    const auto it = extensions.find(name);
+    return it != extensions.end() && it->second.IsObject() ? &it->second : nullptr;
+}
+
+Wrap wrapOf(int mode) {
+    switch (mode) {
+        case TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE:
+            return Wrap::clamp;
+        case TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT:
+            return Wrap::mirror;
+        default:
+            return Wrap::repeat;
+    }
+}
+
+}  // namespace
+
+std::uint32_t MaterialLoader::load(int material, const std::string& object) {
+    if (const auto it = loaded_.find(material); it != loaded_.end()) {
+        return it->second;
+    }
+    Material converted;
+    if (material == -1) {
+        converted.name = "default";
+    } else {
+        const tinygltf::Material& source = at(asset_, asset_.model.materials, material, object, "material");
+        const std::string name = objectName("material", static_cast<std::size_t>(material), source.name);
+        converted = convert(source, name);
+        converted.name = source.name.empty() ? name : oneLine(source.name);
+    }
+    const auto index = static_cast<std::uint32_t>(scene_.materials.size());
+    scene_.materials.push_back(std::move(converted));
+    loaded_.emplace(material, index);
+    return index;
+}
+
+float MaterialLoader::clamped(double value, double lower, double upper, const std::string& object, std::string_view what) {
+    if (value >= lower && value <= upper) {
+        return static_cast<float>(value);
+    }
+    const double inside = std::isnan(value) ? lower : std::clamp(value, lower, upper);
+    asset_.warn(fmt::format("{}: {} {} is outside of its range and taken as {}", object, what, value, inside));
+    return static_cast<float>(inside);
+}
+
+Material MaterialLoader::convert(const tinygltf::Material& source, const std::string& object) {
+    Material material;
+    const tinygltf::PbrMetallicRoughness& pbr = source.pbrMetallicRoughness;
+    for (int i = 0; i < 4; ++i) {
+        material.base_color[i] = clamped(pbr.baseColorFactor.at(static_cast<std::size_t>(i)), 0, 1, object, "baseColorFactor");
+    }
+    for (int i = 0; i < 3; ++i) {
+        material.emission[i] = clamped(source.emissiveFactor.at(static_cast<std::size_t>(i)), 0, kUnlimited, object, "emissiveFactor");
+    }
+    material.metallic = clamped(pbr.metallicFactor, 0, 1, object, "metallicFactor");
+    material.roughness = clamped(pbr.roughnessFactor, 0, 1, object, "roughnessFactor");
+    material.normal_scale = clamped(source.normalTexture.scale, -kUnlimited, kUnlimited, object, "normalTexture.scale");
+    material.alpha_cutoff = clamped(source.alphaCutoff, 0, kUnlimited, object, "alphaCutoff");
+    material.double_sided = source.doubleSided;
+    if (source.alphaMode == "MASK") {
+        material.alpha_mode = AlphaMode::mask;
+    } else if (source.alphaMode == "BLEND") {
+        material.alpha_mode = AlphaMode::blend;
+    } else if (source.alphaMode != "OPAQUE") {
+        asset_.warn(fmt::format("{}: alpha mode '{}' is unknown and taken as OPAQUE", object, oneLine(source.alphaMode)));
+    }
+    const auto textured = [&](const auto& info) { return slot(info.index, info.texCoord, info.extensions, object); };
+    material.base_color_texture = textured(pbr.baseColorTexture);
+    material.metallic_roughness_texture = textured(pbr.metallicRoughnessTexture);
+    material.normal_texture = textured(source.normalTexture);
+    material.emissive_texture = textured(source.emissiveTexture);
+    readExtensions(source, object, material);
+    return material;
+}
+
+void MaterialLoader::readExtensions(const tinygltf::Material& source, const std::string& object, Material& material) {
+    material.unlit = find(source.extensions, "KHR_materials_unlit") != nullptr;
+    if (const auto* strength = find(source.extensions, "KHR_materials_emissive_strength")) {
+        material.emission *= clamped(number(*strength, "emissiveStrength", 1.0), 0, kUnlimited, object, "emissiveStrength");
+        material.emission = glm::min(material.emission, vec3(std::numeric_limits<float>::max()));
+    }
+    if (const auto* ior = find(source.extensions, "KHR_materials_ior")) {
+        const double value = number(*ior, "ior", 1.5);
+        material.ior = value == 0.0 ? 0.0F : clamped(value, 1, kUnlimited, object, "ior");
+    }
+    if (const auto* specular = find(source.extensions, "KHR_materials_specular")) {
+        material.specular = clamped(number(*specular, "specularFactor", 1.0), 0, 1, object, "specularFactor");
+        const auto color = numbers<3>(*specular, "specularColorFactor", 1.0);
+        for (int i = 0; i < 3; ++i) {
+            material.specular_color[i] = clamped(color.at(static_cast<std::size_t>(i)), 0, kUnlimited, object, "specularColorFactor");
+        }
+        material.specular_texture = slot(specular->Has("specularTexture") ? specular->Get("specularTexture") : tinygltf::Value(), object);
+        material.specular_color_texture =
+            slot(specular->Has("specularColorTexture") ? specular->Get("specularColorTexture") : tinygltf::Value(), object);
+    }
+}
+
+TextureSlot MaterialLoader::slot(const tinygltf::Value& info, const std::string& object) {
+    if (!info.IsObject()) {
+        return {};
+    }
+    tinygltf::ExtensionMap extensions;
+    if (info.Has("extensions") && info.Get("extensions").IsObject()) {
+        extensions = info.Get("extensions").Get<tinygltf::Value::Object>();
+    }
+    const auto integer = [&info](const char* key, int fallback) {
+        return info.Has(key) && info.Get(key).IsInt() ? info.Get(key).GetNumberAsInt() : fallback;
+    };
+    return slot(integer("index", -1), integer("texCoord", 0), extensions, object);
+}
+
+TextureSlot MaterialLoader::slot(int texture, int uv_set, const tinygltf::ExtensionMap& extensions, const std::string& object) {
+    TextureSlot result;
+    if (texture == -1) {
+        return result;
+    }
+    const tinygltf::Texture& source = at(asset_, asset_.model.textures, texture, object, "texture");
+    if (source.source == -1) {
+        asset_.warn(fmt::format("{}: texture {} has no image in a format that is supported; it is left out", object, texture));
+        return result;
+    }
+    if (const auto* transform = find(extensions, "KHR_texture_transform")) {
+        // The extension's document: translation * rotation * scale. Its rotation is counter-clockwise as the picture is seen, with v downward.
+        const auto offset = numbers<2>(*transform, "offset", 0.0);
+        const auto scale = numbers<2>(*transform, "scale", 1.0);
+        const double angle = number(*transform, "rotation", 0.0);
+        const double c = std::cos(angle);
+        const double s = std::sin(angle);
+        result.u_from_uv = vec3(glm::dvec3(c * scale[0], s * scale[1], offset[0]));
+        result.v_from_uv = vec3(glm::dvec3(-s * scale[0], c * scale[1], offset[1]));
+        uv_set = static_cast<int>(std::clamp(number(*transform, "texCoord", uv_set), -1.0, 1.0 * kMaxUvSets));
+        if (!isPlace(result.u_from_uv) || !isPlace(result.v_from_uv)) {
+            asset_.warn(fmt::format("{}: a texture transform is too large and left out", object));
+            result = TextureSlot{};
+        }
+    }
+    if (uv_set < 0 || uv_set >= kMaxUvSets) {
+        asset_.warn(fmt::format("{}: texture coordinate set {} is not supported; its texture is left out", object, uv_set));
+        return result;
+    }
+    result.uv_set = static_cast<std::uint32_t>(uv_set);
+    if (source.sampler != -1) {
+        const tinygltf::Sampler& sampler = at(asset_, asset_.model.samplers, source.sampler, object, "sampler");
+        result.wrap_u = wrapOf(sampler.wrapS);
+        result.wrap_v = wrapOf(sampler.wrapT);
+        result.linear = sampler.magFilter != TINYGLTF_TEXTURE_FILTER_NEAREST;
+    }
+    result.texture = textures_.load(source.source, object);
+    return result;
+}
+
+}  // namespace licht::gltf

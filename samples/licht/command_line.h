@@ -1,0 +1,19 @@
+#pragma once
+#include <string>
+#include <variant>
+
+#include "licht/command/options.h"
+
+namespace licht {
+
+/// Text that was asked for instead of work: --help, --version.
+struct PrintedText {
+    std::string text;
+};
+
+using Command = std::variant<PrintedText, RenderOptions, InfoOptions, DevicesOptions, ViewOptions>;
+
+/// Throws InputError of one line on wrong usage.
+Command parseCommandLine(int argument_count, const char* const* arguments);
+
+}  // namespace licht

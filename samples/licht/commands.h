@@ -1,0 +1,12 @@
+#pragma once
+// The subcommands. Each throws InputError or DeviceError and returns the exit code otherwise.
+#include "licht/command/options.h"
+
+namespace licht {
+
+int render(const RenderOptions& options);
+int view(const ViewOptions& options);
+int info(const InfoOptions& options);
+int devices(const DevicesOptions& options);
+
+}  // namespace licht

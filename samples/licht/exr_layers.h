@@ -1,0 +1,15 @@
+#pragma once
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "licht/command/options.h"
+#include "licht/image/exr.h"
+#include "licht/render/renderer.h"
+
+namespace licht {
+
+/// The film as EXR channels under the ecosystem's names: R G B A, and the layers asked for.
+ExrPicture exrPicture(const Film& film, const Layers& layers, std::vector<std::pair<std::string, std::string>> attributes);
+
+}  // namespace licht

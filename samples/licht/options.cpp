@@ -1,0 +1,133 @@
+#include "licht/command/options.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <charconv>
+#include <cmath>
+#include <utility>
+
+#include "licht/command/text.h"
+#include "licht/core/error.h"
+
+namespace licht {
+namespace {
+
+constexpr double kMaxExposure = 64.0;
+
+constexpr std::array<std::pair<std::string_view, Tonemap>, 4> kTonemaps{
+    {{"none", Tonemap::none}, {"neutral", Tonemap::neutral}, {"agx", Tonemap::agx}, {"aces", Tonemap::aces}}};
+
+[[noreturn]] void refuse(std::string_view option, std::string_view text, std::string_view allowed) {
+    throw InputError(fmt::format("{} '{}': must be {}", option, oneLine(text), allowed));
+}
+
+/// The whole text as a number, or nothing.
+template <typename T>
+std::optional<T> wholeNumber(std::string_view text) {
+    T value{};
+    const char* end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, value);
+    if (error != std::errc{} || stop != end) return std::nullopt;
+    return value;
+}
+
+template <typename Choice, std::size_t n>
+Choice choose(std::string_view option, std::string_view text, const std::array<std::pair<std::string_view, Choice>, n>& choices) {
+    std::string names;
+    for (const auto& [name, choice] : choices) {
+        if (name == text) return choice;
+        names += fmt::format("{}{}", names.empty() ? "" : ", ", name);
+    }
+    refuse(option, text, "one of " + names);
+}
+
+}  // namespace
+
+uvec2 parseSize(std::string_view option, std::string_view text) {
+    const std::size_t cross = text.find('x');
+    if (cross != std::string_view::npos) {
+        const auto width = wholeNumber<std::uint32_t>(text.substr(0, cross));
+        const auto height = wholeNumber<std::uint32_t>(text.substr(cross + 1));
+        const auto inRange = [](std::optional<std::uint32_t> side) { return side && *side >= 1 && *side <= kMaxPictureSide; };
+        if (inRange(width) && inRange(height) && std::uint64_t{*width} * *height <= kMaxPicturePixels) return {*width, *height};
+    }
+    refuse(option, text,
+           fmt::format("WIDTHxHEIGHT, each 1 to {} and at most {} pixels together", kMaxPictureSide, kMaxPicturePixels));
+}
+
+std::uint64_t parseCount(std::string_view option, std::string_view text, std::uint64_t lowest, std::uint64_t highest) {
+    const auto value = wholeNumber<std::uint64_t>(text);
+    if (value && *value >= lowest && *value <= highest) return *value;
+    refuse(option, text, fmt::format("a whole number from {} to {}", lowest, highest));
+}
+
+std::uint32_t parseCount32(std::string_view option, std::string_view text, std::uint32_t lowest, std::uint32_t highest) {
+    return static_cast<std::uint32_t>(parseCount(option, text, lowest, highest));
+}
+
+double parsePositive(std::string_view option, std::string_view text) {
+    const auto value = wholeNumber<double>(text);
+    if (value && std::isfinite(*value) && *value > 0.0) return *value;
+    refuse(option, text, "a number greater than 0");
+}
+
+double parseExposure(std::string_view option, std::string_view text) {
+    const auto value = wholeNumber<double>(text);
+    if (value && std::abs(*value) <= kMaxExposure) return *value;
+    refuse(option, text, fmt::format("a number from {} to {}", -kMaxExposure, kMaxExposure));
+}
+
+vec3 parseColour(std::string_view option, std::string_view text) {
+    const std::vector<std::string_view> parts = split(text, ',');
+    vec3 colour{0.0F};
+    bool good = parts.size() == 3;
+    for (int i = 0; good && i < 3; ++i) {
+        const auto value = wholeNumber<float>(parts[static_cast<std::size_t>(i)]);
+        good = value && std::isfinite(*value) && *value >= 0.0F;
+        if (good) colour[i] = *value;
+    }
+    if (good) return colour;
+    refuse(option, text, "R,G,B: three numbers, 0 or greater");
+}
+
+Tonemap parseTonemap(std::string_view option, std::string_view text) { return choose(option, text, kTonemaps); }
+
+std::string_view tonemapName(Tonemap curve) {
+    const auto found = std::find_if(kTonemaps.begin(), kTonemaps.end(), [curve](const auto& known) { return known.second == curve; });
+    assert(found != kTonemaps.end());
+    return found->first;
+}
+
+DirectLight parseDirectLight(std::string_view option, std::string_view text) {
+    return choose(option, text,
+                  std::array<std::pair<std::string_view, DirectLight>, 2>{
+                      {{"mis", DirectLight::mis}, {"hemisphere", DirectLight::hemisphere}}});
+}
+
+Layers parseLayers(std::string_view option, std::string_view text) {
+    Layers layers;
+    const std::array<std::pair<std::string_view, bool*>, 6> names{{{"albedo", &layers.aovs.albedo},
+                                                                   {"normal", &layers.aovs.normal},
+                                                                   {"depth", &layers.aovs.depth},
+                                                                   {"motion", &layers.aovs.motion},
+                                                                   {"variance", &layers.variance},
+                                                                   {"sampleCount", &layers.sample_count}}};
+    if (text == "all") {
+        for (const auto& [name, wanted] : names) *wanted = true;
+        return layers;
+    }
+    for (const std::string_view part : split(text, ',')) *choose(option, part, names) = true;
+    return layers;
+}
+
+std::filesystem::path parseOutput(std::string_view option, std::string_view text) {
+    std::filesystem::path path(text);
+    const std::string ending = lowerCase(path.extension().string());
+    if (ending == ".png" || ending == ".exr") return path;
+    refuse(option, text, "a file that ends in .png or .exr");
+}
+
+}  // namespace licht

@@ -1,0 +1,117 @@
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+#include <span>
+
+#include "licht/command/commands.h"
+#include "licht/command/exr_layers.h"
+#include "licht/command/process_clock.h"
+#include "licht/command/render_loop.h"
+#include "licht/command/report.h"
+#include "licht/command/scene_source.h"
+#include "licht/command/text.h"
+#include "licht/core/file.h"
+#include "licht/image/files.h"
+
+namespace licht {
+namespace {
+
+/// Fails before anything is rendered when a file could not be written afterwards.
+void checkWritable(const std::filesystem::path& path) { const AtomicFile probe(path); }
+
+bool isExr(const std::filesystem::path& path) { return lowerCase(path.extension().string()) == ".exr"; }
+
+StopRules stopRules(const RenderOptions& options) {
+    StopRules rules;
+    rules.samples = std::numeric_limits<std::uint32_t>::max() - options.settings.first_sample;
+    if (options.samples)
+        rules.samples = *options.samples;
+    else if (!options.seconds && !options.error)
+        rules.samples = kDefaultSamples;
+    rules.seconds = options.seconds;
+    rules.error = options.error;
+    return rules;
+}
+
+/// Display values without alpha.
+Image opaquePicture(const Image& rgba) {
+    Image rgb(rgba.width, rgba.height, 3);
+    for (int y = 0; y < rgb.height; ++y)
+        for (int x = 0; x < rgb.width; ++x)
+            for (int c = 0; c < rgb.channels; ++c) rgb.at(x, y, c) = rgba.at(x, y, c);
+    return rgb;
+}
+
+void describeRun(RenderReport& report, const gpu::Device& device, const Renderer& renderer, const LoopResult& result) {
+    report.device = device.report().name;
+    report.driver = device.report().driver;
+    report.samples = result.film.samples;
+    report.stopped_by = result.stopped_by;
+    report.first_image_seconds = result.first_image_seconds;
+    report.render_seconds = result.render_seconds;
+    report.error = result.error;
+    report.effects = renderer.effects().names();
+    report.device_peak_bytes = device.devicePeakBytes();
+}
+
+}  // namespace
+
+int render(const RenderOptions& options) {
+    for (const auto& output : options.outputs) checkWritable(output);
+    if (options.report) checkWritable(*options.report);
+
+    const auto load_start = std::chrono::steady_clock::now();
+    const NamedScene source = loadScene(options.source);
+    const Shot shot = chooseShot(source, options.source.camera, options.size);
+    RenderReport report;
+    report.load_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - load_start).count();
+    report.scene = options.source.scene;
+    report.camera = shot.camera_name;
+    report.size = shot.size;
+    report.settings = options.settings;
+    report.settings.size = shot.size;
+    report.settings.aovs = options.layers.aovs;
+    report.notes = source.scene.notes;
+    report.outputs = options.outputs;
+    if (report.outputs.empty()) {
+        report.outputs.emplace_back(source.name + ".png");
+        checkWritable(report.outputs.front());
+    }
+
+    gpu::DeviceOptions device_options;
+    device_options.device = options.device;
+    gpu::Device device(device_options);
+    Renderer renderer(device, source.scene, shot.camera, report.settings);
+    if (!options.quiet) printWarnings(source.scene);
+
+    InterruptWatch interrupt;
+    std::optional<ProgressLine> progress(std::in_place, stderr, options.quiet);
+    const LoopResult result = renderUntil(renderer, stopRules(options), interrupt, *progress);
+    progress.reset();
+    interrupt.shield();
+
+    describeRun(report, device, renderer, result);
+    const double exposure = options.exposure.value_or(source.scene.default_exposure);
+    for (const auto& output : report.outputs) {
+        if (isExr(output))
+            writeExr(output, exrPicture(result.film, options.layers, reportAttributes(report)));
+        else
+            writePng(output, opaquePicture(renderer.readDisplay(options.tonemap, static_cast<float>(exposure))));
+        if (!options.quiet) fmt::print("wrote {} ({}x{})\n", output.string(), shot.size.x, shot.size.y);
+    }
+    report.statistics = renderer.statistics();
+    report.host_peak_bytes = hostPeakBytes();
+    report.total_seconds = secondsSinceProcessStart();
+    if (options.report) {
+        const std::string json = reportJson(report);
+        writeFile(*options.report, std::as_bytes(std::span(json)));
+    }
+    if (!options.quiet) fmt::print("{}\n", reportLine(report));
+    if (result.stopped_by == Stop::interrupt) fmt::print(stderr, "licht: interrupted: wrote what was there, {}\n", reportLine(report));
+    return device.validationMessages().empty() ? 0 : 1;
+}
+
+}  // namespace licht

@@ -1,0 +1,49 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "licht/command/options.h"
+#include "licht/command/render_loop.h"
+#include "licht/command/scene_source.h"
+#include "licht/gpu/device.h"
+
+namespace licht {
+
+/// What a picture was made of and what it cost.
+struct RenderReport {
+    std::string scene;
+    std::string device;
+    std::string driver;
+    std::string camera;
+    uvec2 size{0};
+    std::uint32_t samples = 0;
+    RenderSettings settings;
+    Stop stopped_by = Stop::none;
+    double load_seconds = 0.0;
+    double first_image_seconds = 0.0;  ///< from process start
+    double render_seconds = 0.0;
+    double total_seconds = 0.0;        ///< from process start until the pictures were written
+    double error = -1.0;               ///< negative: unknown
+    RenderStatistics statistics;
+    std::vector<std::string> effects;
+    std::uint64_t host_peak_bytes = 0;
+    std::uint64_t device_peak_bytes = 0;
+    std::vector<SceneNote> notes;
+    std::vector<std::filesystem::path> outputs;
+
+    [[nodiscard]] std::uint64_t rays() const { return statistics.primary_rays + statistics.bounce_rays + statistics.shadow_rays; }
+};
+
+/// The most memory this process ever held.
+std::uint64_t hostPeakBytes();
+
+std::string reportJson(const RenderReport& report);
+/// The attributes of an EXR file that say how it was made.
+std::vector<std::pair<std::string, std::string>> reportAttributes(const RenderReport& report);
+/// "64 samples in 3.2 s, relative error 0.031"
+std::string reportLine(const RenderReport& report);
+
+}  // namespace licht

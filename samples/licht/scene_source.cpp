@@ -1,0 +1,117 @@
+#include "licht/command/scene_source.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <system_error>
+
+#include "licht/command/text.h"
+#include "licht/core/error.h"
+#include "licht/image/files.h"
+#include "licht/scene/gltf.h"
+#include "licht/scenes/builtin.h"
+
+namespace licht {
+namespace {
+
+constexpr std::uint32_t kDefaultHeight = 540;
+constexpr std::uint32_t kDefaultWidth = 960;
+constexpr uvec2 kTestSceneSize{512, 512};
+
+/// The square test scenes are drawn at the size their references have.
+bool isTestScene(const NamedScene& source) { return source.builtin && (source.name == "cornell" || source.name == "furnace"); }
+
+[[noreturn]] void refuseScene(const std::string& source) {
+    std::error_code ignored;
+    const std::filesystem::path path(source);
+    if (std::filesystem::is_directory(path, ignored)) throw InputError(fmt::format("{}: is a folder, not a scene", source));
+    if (std::filesystem::exists(path, ignored)) throw InputError(fmt::format("{}: a scene file ends in .gltf or .glb", source));
+    std::string names;
+    for (const BuiltinScene& scene : builtinScenes()) names += fmt::format("{}{}", names.empty() ? "" : ", ", scene.name);
+    throw InputError(fmt::format("{}: no such scene: neither a .gltf or .glb file nor built in ({})", source, names));
+}
+
+std::optional<std::size_t> findCamera(const Scene& scene, const std::string& wanted) {
+    const auto named =
+        std::find_if(scene.cameras.begin(), scene.cameras.end(), [&](const Camera& camera) { return camera.name == wanted; });
+    if (named != scene.cameras.end()) return static_cast<std::size_t>(named - scene.cameras.begin());
+    std::size_t index = 0;
+    const char* end = wanted.data() + wanted.size();
+    const auto [stop, error] = std::from_chars(wanted.data(), end, index);
+    if (error == std::errc{} && stop == end && index < scene.cameras.size()) return index;
+    return std::nullopt;
+}
+
+[[noreturn]] void refuseCamera(const NamedScene& source, const std::string& wanted) {
+    std::string known;
+    for (std::size_t i = 0; i < source.scene.cameras.size(); ++i)
+        known += fmt::format("{}{} '{}'", i == 0 ? "" : ", ", i, source.scene.cameras[i].name);
+    throw InputError(fmt::format("{}: no camera '{}'; the scene has {}", source.name, wanted, known.empty() ? "none" : known));
+}
+
+uvec2 defaultSize(const NamedScene& source, const Camera* camera) {
+    if (isTestScene(source)) return kTestSceneSize;
+    if (camera == nullptr || !(camera->aspect > 0.0F)) return {kDefaultWidth, kDefaultHeight};
+    const float width = std::round(static_cast<float>(kDefaultHeight) * camera->aspect);
+    return {static_cast<std::uint32_t>(std::clamp(width, 1.0F, static_cast<float>(kMaxPictureSide))), kDefaultHeight};
+}
+
+}  // namespace
+
+NamedScene loadNamedScene(const std::string& source) {
+    if (auto builtin = makeBuiltinScene(source)) return {std::move(*builtin), source, true};
+    const std::filesystem::path path(source);
+    const std::string ending = lowerCase(path.extension().string());
+    if (ending != ".gltf" && ending != ".glb") refuseScene(source);
+    return {loadGltf(path), path.stem().string(), false};
+}
+
+NamedScene loadScene(const SceneRequest& request) {
+    NamedScene source = loadNamedScene(request.scene);
+    Scene& scene = source.scene;
+    if (request.environment) {
+        std::size_t replaced = 0;
+        scene.environment = Environment{*request.environment, readRadianceMap(*request.environment, &replaced)};
+        if (replaced > 0)
+            scene.notes.push_back({SceneNote::Kind::warning, fmt::format("{}: {} texels that were negative or not finite became 0",
+                                                                         *request.environment, replaced)});
+    } else if (request.background) {
+        scene.environment = constantEnvironment(*request.background);
+    } else if (isDark(scene)) {
+        scene.environment = constantEnvironment(vec3(1.0F));
+        scene.notes.push_back({SceneNote::Kind::warning, "nothing in the scene gives light: lit by a neutral sky of 1 cd/m^2"});
+    }
+    return source;
+}
+
+Shot chooseShot(const NamedScene& source, const std::optional<std::string>& camera, std::optional<uvec2> size) {
+    const Scene& scene = source.scene;
+    std::optional<std::size_t> index;
+    if (camera) {
+        index = findCamera(scene, *camera);
+        if (!index) refuseCamera(source, *camera);
+    } else if (!scene.cameras.empty()) {
+        index = 0;
+    }
+    Shot shot;
+    shot.size = size.value_or(defaultSize(source, index ? &scene.cameras[*index] : nullptr));
+    if (index) {
+        shot.camera = scene.cameras[*index];
+        shot.camera_name = shot.camera.name.empty() ? std::to_string(*index) : shot.camera.name;
+    } else {
+        shot.camera = framingCamera(sceneBounds(scene), static_cast<float>(shot.size.x) / static_cast<float>(shot.size.y));
+        shot.camera_name = "framing";
+    }
+    return shot;
+}
+
+void printWarnings(const Scene& scene) {
+    for (const SceneNote& note : scene.notes)
+        if (note.kind == SceneNote::Kind::warning) fmt::print(stderr, "licht: warning: {}\n", oneLine(note.text));
+}
+
+}  // namespace licht

@@ -1,0 +1,32 @@
+#pragma once
+#include <optional>
+#include <string>
+
+#include "licht/command/options.h"
+#include "licht/scene/scene.h"
+
+namespace licht {
+
+/// A built-in scene or a file, by name. Throws InputError when it is neither or cannot be loaded.
+struct NamedScene {
+    Scene scene;
+    std::string name;  ///< built-in name, or the file's name without folder and ending
+    bool builtin = false;
+};
+NamedScene loadNamedScene(const std::string& source);
+
+/// The scene as asked for, with its sky. A scene in which nothing gives light gets a neutral sky, unless a sky was asked for; a note says so.
+NamedScene loadScene(const SceneRequest& request);
+
+/// From where a scene is seen, and in which size.
+struct Shot {
+    Camera camera;
+    std::string camera_name;  ///< its name or index; "framing" where the scene has none
+    uvec2 size{0};
+};
+Shot chooseShot(const NamedScene& source, const std::optional<std::string>& camera, std::optional<uvec2> size);
+
+/// Warnings of loading, one line each on stderr.
+void printWarnings(const Scene& scene);
+
+}  // namespace licht

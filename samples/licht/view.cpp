@@ -1,0 +1,103 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "licht/command/commands.h"
+#include "licht/command/scene_source.h"
+#include "licht/command/stop.h"
+#include "licht/command/view_controls.h"
+#include "licht/core/error.h"
+#include "licht/window/swapchain.h"
+#include "licht/window/window.h"
+
+namespace licht {
+namespace {
+
+constexpr double kSecondsBetweenTitles = 0.5;
+constexpr double kSecondsAsleep = 0.1;  ///< between looks at a window that cannot be drawn on, or a picture that is done
+
+/// Since the picture last started anew.
+struct Accumulation {
+    double started = 0.0;  ///< seconds of the window's clock
+    Advance advance;
+    ErrorSchedule schedule{std::nullopt};
+};
+
+std::string title(const std::string& scene, const Accumulation& accumulation, const ViewState& state) {
+    const Advance& advance = accumulation.advance;
+    std::string text = fmt::format("{} - {} samples, {:.1f} ms each", scene, advance.samples,
+                                   1000.0 * advance.seconds / std::max(advance.samples, 1U));
+    if (advance.error >= 0.0) text += fmt::format(", error {:.3g}", advance.error);
+    return text + fmt::format(" - {}, {:+.2f} EV - Licht", tonemapName(state.tonemap), state.exposure);
+}
+
+void estimateError(Renderer& renderer, const Window& window, Accumulation& accumulation) {
+    renderer.finish();
+    const double before = window.seconds();
+    accumulation.advance.error = relativeError(renderer.readFilm());
+    accumulation.advance.error_samples = renderer.samples();
+    accumulation.schedule.checked(accumulation.advance, window.seconds() - before);
+}
+
+}  // namespace
+
+int view(const ViewOptions& options) {
+    if (!Window::available()) throw InputError("no display to open a window on: use 'licht render' for pictures in files");
+    const NamedScene source = loadScene(options.source);
+    const Shot shot = chooseShot(source, options.source.camera, options.size);
+    printWarnings(source.scene);
+
+    Window window(shot.size, source.name + " - Licht");
+    gpu::DeviceOptions device_options;
+    device_options.device = options.device;
+    window.prepare(device_options);
+    gpu::Device device(device_options);
+    RenderSettings settings = options.settings;
+    settings.size = shot.size;
+    Renderer renderer(device, source.scene, shot.camera, settings);
+    Swapchain swapchain(device, window);
+
+    const ViewState start{OrbitCamera(shot.camera, sceneBounds(source.scene)),
+                          options.exposure.value_or(source.scene.default_exposure), options.tonemap};
+    ViewState state = start;
+    Accumulation accumulation{window.seconds(), {}, ErrorSchedule{std::nullopt}};
+    double titled = 0.0;
+    InputState input;
+    for (std::uint64_t frame = 0; !window.shouldClose() && (options.frames == 0 || frame < options.frames); ++frame) {
+        const uvec2 pixels = window.framebufferSize();
+        const bool visible = pixels.x > 0 && pixels.y > 0;
+        const bool full = renderer.samples() == std::numeric_limits<std::uint32_t>::max() - settings.first_sample;
+        input = visible && !full ? window.poll() : window.waitAndPoll(kSecondsAsleep);
+        if (!visible) continue;
+
+        state = applyInput(state, start, input, static_cast<float>(pixels.y));
+        if (state.quit) break;
+        const std::uint32_t samples_before = renderer.samples();
+        if (pixels != settings.size) {
+            swapchain.finish();
+            renderer.resize(pixels);
+            settings.size = pixels;
+        }
+        renderer.setCamera(state.orbit.camera());
+        if (renderer.samples() < samples_before) accumulation = {window.seconds(), {}, ErrorSchedule{std::nullopt}};
+
+        if (!full) renderer.renderSample();
+        swapchain.present(renderer.displayImage(), [&](gpu::Commands& commands) {
+            renderer.recordDisplay(commands, state.tonemap, static_cast<float>(state.exposure));
+        });
+        Advance& advance = accumulation.advance;
+        advance.samples = renderer.samples();
+        advance.seconds = window.seconds() - accumulation.started;
+        if (accumulation.schedule.due(advance.samples, advance.seconds)) estimateError(renderer, window, accumulation);
+        if (window.seconds() - titled >= kSecondsBetweenTitles) {
+            window.setTitle(title(source.name, accumulation, state));
+            titled = window.seconds();
+        }
+    }
+    swapchain.finish();
+    renderer.finish();
+    return device.validationMessages().empty() ? 0 : 1;
+}
+
+}  // namespace licht

@@ -1,0 +1,13 @@
+#include "licht/scenes/builtin_scenes.h"
+#include "licht/scenes/shapes.h"
+
+namespace licht {
+
+Scene makeEmpty() {
+    Scene scene;
+    scene.name = "empty";
+    scene.cameras.push_back(lookingCamera("camera", vec3(0, 0, 1), vec3(0.0F), 0.8F));
+    return scene;
+}
+
+}  // namespace licht

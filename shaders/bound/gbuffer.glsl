@@ -1,0 +1,26 @@
+// The G-buffer as the passes behind it read it.
+#ifndef LICHT_BOUND_GBUFFER_GLSL
+#define LICHT_BOUND_GBUFFER_GLSL
+
+#include "bound/camera.glsl"
+#include "bound/scene.glsl"
+
+layout(rgba32ui, binding = 20) uniform readonly uimage2D gbuffer;
+
+Hit gbufferHit(ivec2 pixel) {
+    uvec4 record = imageLoad(gbuffer, pixel);
+    return record.x == kNoIndex ? kNoHit : Hit(record.x, record.y, uintBitsToFloat(record.z), uintBitsToFloat(record.w));
+}
+
+vec3 hitPosition(Hit hit) {
+    uvec3 v = triangleVertices(hit.instance, hit.primitive);
+    return (1.0 - hit.b1 - hit.b2) * vertices[v.x].position + hit.b1 * vertices[v.y].position + hit.b2 * vertices[v.z].position;
+}
+
+// Unit direction from what the pixel's sample saw to the camera.
+vec3 gbufferWo(Hit hit, ivec2 pixel, uint sample_index) {
+    if (hit.instance == kNoIndex) return directionToCamera(frame.view, vec2(pixel) + cameraJitter(sample_index, frame.seed));
+    return directionToCamera(frame.view, hitPosition(hit));
+}
+
+#endif

@@ -1,0 +1,59 @@
+// The scene's buffers, and which effects are compiled in. The binding's name is the resource's name on the host.
+#ifndef LICHT_BOUND_SCENE_GLSL
+#define LICHT_BOUND_SCENE_GLSL
+
+#include "shared/effects.h"
+#include "shared/records.h"
+
+layout(constant_id = 0) const bool kTextures = true;
+layout(constant_id = 1) const bool kNormalMaps = true;
+layout(constant_id = 2) const bool kVertexColors = true;
+layout(constant_id = 3) const bool kExtraUvSets = true;
+layout(constant_id = 4) const bool kAlpha = true;
+// 5, kGlossy, belongs to pure/bsdf.glsl.
+layout(constant_id = 6) const bool kEmission = true;
+layout(constant_id = 7) const bool kLightTriangles = true;
+layout(constant_id = 8) const bool kPunctualLights = true;
+layout(constant_id = 9) const bool kEnvironment = true;
+layout(constant_id = 10) const bool kUnlit = true;
+
+layout(std140, binding = 0) uniform FrameBlock { FrameRecord frame; };
+layout(std430, binding = 1) readonly buffer Vertices { VertexRecord vertices[]; };
+layout(std430, binding = 2) readonly buffer TriangleIndices { uint triangle_indices[]; };
+layout(std430, binding = 3) readonly buffer Instances { InstanceRecord instances[]; };
+layout(std430, binding = 4) readonly buffer Materials { MaterialRecord materials[]; };
+layout(std430, binding = 11) readonly buffer Tangents { vec4 tangents[]; };
+layout(std430, binding = 12) readonly buffer Colors { vec4 colors[]; };
+layout(std430, binding = 13) readonly buffer ExtraUvs { vec2 extra_uvs[]; };
+
+// Where a path meets the scene; raster and ray deliver the same record. Weights: 1 - b1 - b2, b1, b2.
+struct Hit {
+    uint instance;  // kNoIndex: nothing
+    uint primitive;
+    float b1;
+    float b2;
+};
+
+const Hit kNoHit = Hit(kNoIndex, 0u, 0.0, 0.0);
+
+uvec3 triangleVertices(uint instance, uint primitive) {
+    uint first = 3u * (instances[instance].first_triangle + primitive);
+    return uvec3(triangle_indices[first], triangle_indices[first + 1u], triangle_indices[first + 2u]);
+}
+
+vec2 uvAt(uvec3 v, vec3 weights, uint set) {
+    if (kExtraUvSets && set > 0u) {
+        if (set > frame.extra_uv_sets) return vec2(0.0);
+        uvec3 at = v * frame.extra_uv_sets + (set - 1u);
+        return weights.x * extra_uvs[at.x] + weights.y * extra_uvs[at.y] + weights.z * extra_uvs[at.z];
+    }
+    return weights.x * vec2(vertices[v.x].u, vertices[v.x].v) + weights.y * vec2(vertices[v.y].u, vertices[v.y].v) +
+           weights.z * vec2(vertices[v.z].u, vertices[v.z].v);
+}
+
+vec4 vertexColorAt(uvec3 v, vec3 weights) {
+    if (!kVertexColors) return vec4(1.0);
+    return weights.x * colors[v.x] + weights.y * colors[v.y] + weights.z * colors[v.z];
+}
+
+#endif

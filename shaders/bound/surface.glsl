@@ -1,0 +1,132 @@
+// From a hit to what scatters and emits there. Raster hits and traced hits go through the same code.
+#ifndef LICHT_BOUND_SURFACE_GLSL
+#define LICHT_BOUND_SURFACE_GLSL
+
+#include "bound/texture.glsl"
+#include "pure/bsdf.glsl"
+#include "pure/frame.glsl"
+#include "pure/random.glsl"
+
+struct Surface {
+    vec3 position;       // world
+    float error_bound;   // how far from the true plane position and traversal may see each other, metres
+    vec3 face_normal;    // unit, world, on the side of wo
+    Frame frame;         // around the shading normal, on the side of wo
+    Bsdf bsdf;
+    vec3 base_color;
+    vec3 emission;       // towards wo, cd/m^2
+    uint light;          // in the light table; kNoIndex: found by scattering alone
+    float area;          // of the triangle, m^2
+};
+
+// fp32 rounds the position to a few units in 2^-24 of the vertices' coordinates (PBRT 4, section 6.8.5 has gamma(7)), and the traversal, which
+// works relative to the ray's origin, adds about as many of the triangle's own extent. Measured needs are 1 to 8 units.
+const float kPositionUnits = 32.0 * 5.9604644775390625e-8;
+
+vec4 baseColorAt(uint instance, MaterialRecord m, uvec3 v, vec3 weights) {
+    vec4 c = m.base_color * sampleSlot(m.base_color_slot, v, weights);
+    return kVertexColors ? c * vertexColorAt(v, weights) : c;
+}
+
+// Coverage: a masked or blended surface is there or not, for this ray, as one number decides.
+bool covers(uint instance, uint primitive, float b1, float b2, float u) {
+    MaterialRecord m = materials[instances[instance].material];
+    if ((m.flags & (kMaterialAlphaMask | kMaterialAlphaBlend)) == 0u) return true;
+    uvec3 v = triangleVertices(instance, primitive);
+    float alpha = baseColorAt(instance, m, v, vec3(1.0 - b1 - b2, b1, b2)).a;
+    return (m.flags & kMaterialAlphaMask) != 0u ? alpha >= m.alpha_cutoff : u < alpha;
+}
+
+float coverageNumber(SampleAddress address, uint rays_before, uint triangle) {
+    return sample4(SampleAddress(address.pixel, address.index, address.seed ^ (triangle * 0x9e3779b9u)), kDimensionAlpha + rays_before).x;
+}
+
+// glTF's normal map: tangent space of the interpolated normal and the vertices' tangents.
+vec3 mappedNormal(MaterialRecord m, uvec3 v, vec3 weights, vec3 n) {
+    vec4 t = weights.x * tangents[v.x] + weights.y * tangents[v.y] + weights.z * tangents[v.z];
+    vec3 tangent = t.xyz - dot(t.xyz, n) * n;
+    float length2 = dot(tangent, tangent);
+    if (!(length2 > 0.0)) return n;
+    tangent *= inversesqrt(length2);
+    vec3 bitangent = (t.w < 0.0 ? -1.0 : 1.0) * cross(n, tangent);
+    vec3 k = sampleSlot(m.normal_slot, v, weights).xyz * 2.0 - 1.0;
+    vec3 mapped = k.x * m.normal_scale * tangent + k.y * m.normal_scale * bitangent + k.z * n;
+    float mapped2 = dot(mapped, mapped);
+    return mapped2 > 0.0 ? mapped * inversesqrt(mapped2) : n;
+}
+
+Bsdf bsdfOf(MaterialRecord m, uvec3 v, vec3 weights, vec3 base) {
+    if (!kGlossy) return lambertBsdf(base);
+    float metallic = m.metallic;
+    float roughness = m.roughness;
+    float specular = m.specular;
+    vec3 specular_color = m.specular_color;
+    if (kTextures) {
+        vec4 mr = sampleSlot(m.metallic_roughness_slot, v, weights);
+        metallic *= mr.b;
+        roughness *= mr.g;
+        specular *= sampleSlot(m.specular_slot, v, weights).a;
+        specular_color *= sampleSlot(m.specular_color_slot, v, weights).rgb;
+    }
+    vec3 dielectric_f0 = min(m.dielectric_f0 * specular_color, vec3(1.0)) * specular;
+    Bsdf b;
+    b.diffuse = base * (1.0 - metallic);
+    b.alpha = max(roughness * roughness, kMinAlpha);
+    b.f0 = mix(dielectric_f0, base, metallic);
+    b.f90 = mix(specular, 1.0, metallic);
+    b.dielectric_f0 = largest(dielectric_f0);
+    b.dielectric_f90 = specular;
+    return b;
+}
+
+// wo: unit, world, towards where the path came from.
+Surface surfaceAt(Hit hit, vec3 wo) {
+    InstanceRecord instance = instances[hit.instance];
+    MaterialRecord m = materials[instance.material];
+    uvec3 v = triangleVertices(hit.instance, hit.primitive);
+    vec3 weights = vec3(1.0 - hit.b1 - hit.b2, hit.b1, hit.b2);
+    vec3 p0 = vertices[v.x].position, p1 = vertices[v.y].position, p2 = vertices[v.z].position;
+
+    Surface s;
+    s.position = weights.x * p0 + weights.y * p1 + weights.z * p2;
+
+    // The face: counter-clockwise seen from its front.
+    vec3 e1 = p1 - p0, e2 = p2 - p0;
+    float scale = largest(max(abs(e1), abs(e2)));  // so that the product of tiny edges does not underflow
+    vec3 area2 = cross(e1 / scale, e2 / scale);
+    float length_area2 = length(area2);
+    s.area = 0.5 * length_area2 * scale * scale;
+    vec3 face = area2 / length_area2;
+    bool front = dot(face, wo) >= 0.0;
+    s.face_normal = front ? face : -face;
+    s.error_bound = kPositionUnits * (dot(abs(face), max(abs(p0), max(abs(p1), abs(p2)))) + scale);
+
+    // The shading normal, on the same side; bent back into view where interpolation or a map turns it away from wo.
+    vec3 n = weights.x * vertices[v.x].normal + weights.y * vertices[v.y].normal + weights.z * vertices[v.z].normal;
+    float n2 = dot(n, n);
+    n = n2 > 0.0 ? n * inversesqrt(n2) : face;
+    if (kNormalMaps && (instance.flags & kInstanceTangents) != 0u && m.normal_slot.texture != kNoIndex) n = mappedNormal(m, v, weights, n);
+    n = front ? n : -n;
+    const float kLowestCosine = 1e-3;  // keeps wo inside the hemisphere by more than the rounding of the frame
+    float away = dot(n, wo);
+    if (away < kLowestCosine) n = normalize(n + (kLowestCosine - away) * 1.0001 * wo);
+    s.frame = frameFromNormal(n);
+
+    vec4 base = baseColorAt(hit.instance, m, v, weights);
+    s.base_color = base.rgb;
+    s.emission = vec3(0.0);
+    s.light = kNoIndex;
+    if (kUnlit && (m.flags & kMaterialUnlit) != 0u) {
+        s.bsdf = lambertBsdf(vec3(0.0));
+        s.emission = base.rgb;
+        return s;
+    }
+    s.bsdf = bsdfOf(m, v, weights, base.rgb);
+    if (kEmission && (front || (m.flags & kMaterialDoubleSided) != 0u)) {
+        s.emission = m.emission * sampleSlot(m.emissive_slot, v, weights).rgb;
+        if (kLightTriangles && instance.first_light != kNoIndex) s.light = instance.first_light + hit.primitive;
+    }
+    return s;
+}
+
+#endif

@@ -1,0 +1,28 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// The history: mean and variance of every pixel, all samples weighted alike.
+#include "pure/running_mean.glsl"
+#include "shared/records.h"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(push_constant) uniform Push { SamplePush push; };
+layout(rgba32f, binding = 21) uniform readonly image2D radiance_image;
+layout(rgba32f, binding = 22) uniform image2D mean_high;
+layout(rgba32f, binding = 23) uniform image2D mean_low;
+layout(rgba32f, binding = 24) uniform image2D squares_high;
+layout(rgba32f, binding = 25) uniform image2D squares_low;
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(pixel, imageSize(mean_high)))) return;
+    RunningMean r = RunningMean(TwoFloat4(vec4(0.0), vec4(0.0)), TwoFloat4(vec4(0.0), vec4(0.0)));
+    if (push.count_before > 0u) {
+        r.mean = TwoFloat4(imageLoad(mean_high, pixel), imageLoad(mean_low, pixel));
+        r.squares = TwoFloat4(imageLoad(squares_high, pixel), imageLoad(squares_low, pixel));
+    }
+    r = addSample(r, imageLoad(radiance_image, pixel), float(push.count_before) + 1.0);
+    imageStore(mean_high, pixel, r.mean.high);
+    imageStore(mean_low, pixel, r.mean.low);
+    imageStore(squares_high, pixel, r.squares.high);
+    imageStore(squares_low, pixel, r.squares.low);
+}

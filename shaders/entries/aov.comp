@@ -1,0 +1,32 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Extra layers from the primary hits. Sums over the samples that hit a surface; the host divides by their number.
+#include "bound/gbuffer.glsl"
+#include "bound/surface.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(push_constant) uniform Push { SamplePush push; };
+layout(rgba32f, binding = 26) uniform image2D aov_albedo;  // RGB; A: number of hits
+layout(rgba32f, binding = 27) uniform image2D aov_normal;  // XYZ; W: depth
+layout(rgba32f, binding = 28) uniform image2D aov_motion;  // XY
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(pixel, imageSize(aov_albedo)))) return;
+    vec4 albedo = vec4(0.0), normal = vec4(0.0), motion = vec4(0.0);
+    if (push.count_before > 0u) {
+        albedo = imageLoad(aov_albedo, pixel);
+        normal = imageLoad(aov_normal, pixel);
+        motion = imageLoad(aov_motion, pixel);
+    }
+    Hit hit = gbufferHit(pixel);
+    if (hit.instance != kNoIndex) {
+        Surface s = surfaceAt(hit, gbufferWo(hit, pixel, push.sample_index));
+        albedo += vec4(s.base_color, 1.0);
+        normal += vec4(s.frame.normal, -dot(frame.view.back, s.position - frame.view.eye));
+        motion.xy += pixelFromWorld(frame.view, s.position) - pixelFromWorld(frame.previous_view, s.position);
+    }
+    imageStore(aov_albedo, pixel, albedo);
+    imageStore(aov_normal, pixel, normal);
+    imageStore(aov_motion, pixel, motion);
+}

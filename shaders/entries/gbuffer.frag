@@ -1,0 +1,23 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Stores the hit record; partly transparent surfaces are there or not, as for every other ray.
+#include "bound/surface.glsl"
+
+layout(push_constant) uniform Push { SamplePush push; };
+
+layout(location = 0) in vec2 barycentrics;
+layout(location = 1) flat in uvec2 instance_primitive;
+layout(location = 0) out uvec4 hit_record;
+
+void main() {
+    // Interpolation may end a rounding outside the triangle.
+    vec2 b = max(barycentrics, vec2(0.0));
+    float sum = b.x + b.y;
+    if (sum > 1.0) b /= sum;
+    if (kAlpha && (instances[instance_primitive.x].flags & kInstanceAlpha) != 0u) {
+        SampleAddress address = SampleAddress(uvec2(gl_FragCoord.xy), push.sample_index, frame.seed);
+        uint triangle = instances[instance_primitive.x].first_triangle + instance_primitive.y;
+        if (!covers(instance_primitive.x, instance_primitive.y, b.x, b.y, coverageNumber(address, 0u, triangle))) discard;
+    }
+    hit_record = uvec4(instance_primitive, floatBitsToUint(b));
+}

@@ -1,0 +1,21 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Primary hits by rasterising: every vertex is pulled by its place in the triangle list, so that triangle and corner are known without any
+// optional feature, and the barycentrics are plain interpolated values.
+#include "bound/camera.glsl"
+#include "bound/scene.glsl"
+
+layout(push_constant) uniform Push { SamplePush push; };
+
+layout(location = 0) out vec2 barycentrics;
+layout(location = 1) flat out uvec2 instance_primitive;
+
+void main() {
+    uint triangle = uint(gl_VertexIndex) / 3u;
+    uint corner = uint(gl_VertexIndex) % 3u;
+    uint instance = uint(gl_InstanceIndex);
+    vec3 position = vertices[triangle_indices[gl_VertexIndex]].position;
+    barycentrics = vec2(corner == 1u ? 1.0 : 0.0, corner == 2u ? 1.0 : 0.0);
+    instance_primitive = uvec2(instance, triangle - instances[instance].first_triangle);
+    gl_Position = clipFromRelative(frame.view, position - frame.view.eye, cameraJitter(push.sample_index, frame.seed));
+}

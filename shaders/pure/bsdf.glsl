@@ -1,0 +1,80 @@
+// glTF 2.0 metallic-roughness (Appendix B of its specification) with KHR_materials_specular and KHR_materials_ior: a Lambertian base under a
+// GGX coat. Local frame, +Z is the normal; wo and wi both point away from the surface; only wo.z > 0 and wi.z > 0 reflect.
+// Three verbs: evaluate gives f (1/sr, without the cosine), pdf its density (solid angle), sample a direction with its weight f cos / pdf.
+#ifndef LICHT_PURE_BSDF_GLSL
+#define LICHT_PURE_BSDF_GLSL
+
+#include "pure/microfacet.glsl"
+#include "shared/effects.h"
+
+layout(constant_id = 5) const bool kGlossy = true;  // kEffectGlossy
+
+struct Bsdf {
+    vec3 diffuse;             // albedo of the base: base colour * (1 - metallic)
+    float alpha;              // GGX width, at least kMinAlpha
+    vec3 f0;                  // reflectance of the coat at normal incidence, dielectric and metal mixed
+    float f90;                // and at grazing incidence
+    float dielectric_f0;      // of the dielectric share alone (largest channel): what the base does not receive
+    float dielectric_f90;
+};
+
+struct BsdfSample {
+    vec3 wi;      // local
+    float pdf;    // solid angle
+    vec3 weight;  // f cos / pdf
+    bool valid;   // false: absorbed
+};
+
+Bsdf lambertBsdf(vec3 albedo) { return Bsdf(albedo, 1.0, vec3(0.0), 0.0, 0.0, 0.0); }
+
+float largest(vec3 c) { return max(c.x, max(c.y, c.z)); }
+
+// Share of samples spent on the coat: by its reflectance towards wo against the base's.
+float coatProbability(Bsdf b, vec3 wo) {
+    float coat = largest(fresnelSchlick(b.f0, b.f90, wo.z));
+    float base = largest(b.diffuse);
+    if (coat <= 0.0) return 0.0;
+    if (base <= 0.0) return 1.0;
+    // Never starve a lobe: the estimate of its share is for wo alone.
+    return clamp(coat / (coat + base), 0.1, 0.9);
+}
+
+vec3 bsdfEvaluate(Bsdf b, vec3 wo, vec3 wi) {
+    if (wo.z <= 0.0 || wi.z <= 0.0) return vec3(0.0);
+    if (!kGlossy) return b.diffuse * kInvPi;
+    vec3 h = normalize(wo + wi);
+    float cos_h = dot(wo, h);
+    float passed = 1.0 - fresnelSchlick(vec3(b.dielectric_f0), b.dielectric_f90, cos_h).x;
+    vec3 coat = fresnelSchlick(b.f0, b.f90, cos_h) * (ggxD(h, b.alpha) * ggxG2(wo, wi, b.alpha) / (4.0 * wo.z * wi.z));
+    return b.diffuse * (passed * kInvPi) + coat;
+}
+
+float bsdfPdf(Bsdf b, vec3 wo, vec3 wi) {
+    if (wo.z <= 0.0 || wi.z <= 0.0) return 0.0;
+    float base = pdfCosineHemisphere(wi.z);
+    if (!kGlossy) return base;
+    float p_coat = coatProbability(b, wo);
+    return mix(base, pdfGgxReflection(wo, normalize(wo + wi), b.alpha), p_coat);
+}
+
+BsdfSample bsdfSample(Bsdf b, vec3 wo, float u_lobe, vec2 u) {
+    const BsdfSample kAbsorbed = BsdfSample(vec3(0.0, 0.0, 1.0), 0.0, vec3(0.0), false);
+    if (wo.z <= 0.0) return kAbsorbed;
+    if (!kGlossy) {
+        vec3 wi = sampleCosineHemisphere(u);
+        return BsdfSample(wi, pdfCosineHemisphere(wi.z), b.diffuse, wi.z > 0.0);
+    }
+    vec3 wi;
+    if (u_lobe < coatProbability(b, wo)) {
+        vec3 h = sampleGgxVisibleNormal(wo, b.alpha, u);
+        wi = 2.0 * dot(wo, h) * h - wo;
+    } else {
+        wi = sampleCosineHemisphere(u);
+    }
+    if (wi.z <= 0.0) return kAbsorbed;
+    float pdf = bsdfPdf(b, wo, wi);
+    if (!(pdf > 0.0)) return kAbsorbed;
+    return BsdfSample(wi, pdf, bsdfEvaluate(b, wo, wi) * (wi.z / pdf), true);
+}
+
+#endif

@@ -1,0 +1,122 @@
+// Every wrong use: exit code 2, one line that says what is wrong, and nothing left behind.
+#include <gtest/gtest.h>
+
+#include "run_program.h"
+
+namespace licht::test {
+namespace {
+
+using Words = std::vector<std::string>;
+
+struct BadInput {
+    const char* name;
+    Words arguments;
+    const char* says;  ///< part of the line
+};
+
+void PrintTo(const BadInput& bad, std::ostream* stream) { *stream << testing::PrintToString(bad.arguments); }
+
+class BadInputTest : public testing::TestWithParam<BadInput> {};
+
+TEST_P(BadInputTest, SaysOneLineAndLeavesNothing) {
+    const ScratchFolder folder;
+    folder.write("cut.glb", std::string("glTF\x02\0\0\0\x00\x10\0\0\x00\x08\0\0JSON{\"asset\"", 31));
+    folder.write("bad.hdr", "this is no picture");
+    folder.write("notes.txt", "neither is this");
+    std::filesystem::create_directory(folder.path() / "folder");
+    std::filesystem::create_directory(folder.path() / "folder.png");
+    std::filesystem::create_directory(folder.path() / "folder.glb");
+    const Words before = folder.contents();
+
+    const Outcome outcome = runLicht(folder, GetParam().arguments);
+
+    EXPECT_EQ(outcome.exit_code, 2);
+    ASSERT_EQ(outcome.errorLines().size(), 1U) << outcome.err;
+    EXPECT_EQ(outcome.err.rfind("licht: ", 0), 0U) << outcome.err;
+    EXPECT_NE(outcome.err.find(GetParam().says), std::string::npos) << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_EQ(folder.contents(), before);
+}
+
+const BadInput kBadInputs[] = {
+    {"NoSubcommand", {}, "subcommand"},
+    {"UnknownSubcommand", {"paint"}, "paint"},
+    {"UnknownFlag", {"render", "empty", "--frobnicate"}, "--frobnicate"},
+    {"NoScene", {"render"}, "SCENE"},
+    {"MissingFile", {"render", "missing.glb"}, "missing.glb"},
+    {"UnknownScene", {"render", "missing"}, "missing"},
+    {"TruncatedGlb", {"render", "cut.glb"}, "cut.glb"},
+    {"FolderAsScene", {"render", "folder"}, "folder"},
+    {"FolderNamedAsScene", {"render", "folder.glb"}, "folder.glb"},
+    {"OtherFileAsScene", {"render", "notes.txt"}, "notes.txt"},
+    {"MissingFileInfo", {"info", "missing.glb"}, "missing.glb"},
+    {"TruncatedGlbInfo", {"info", "cut.glb"}, "cut.glb"},
+    {"ZeroSize", {"render", "empty", "--size", "0x0"}, "--size '0x0'"},
+    {"HugeSize", {"render", "empty", "--size", "99999999999x9"}, "--size"},
+    {"TooManyPixels", {"render", "empty", "--size", "16384x16384"}, "--size"},
+    {"SizeWithoutCross", {"render", "empty", "--size", "64"}, "--size '64'"},
+    {"NegativeSamples", {"render", "empty", "--spp", "-1"}, "--spp '-1'"},
+    {"ZeroSamples", {"render", "empty", "--spp", "0"}, "--spp '0'"},
+    {"TooManySamples", {"render", "empty", "--spp", "4294967296"}, "--spp"},
+    {"NegativeBounces", {"render", "empty", "--bounces", "-1"}, "--bounces '-1'"},
+    {"TooManyBounces", {"render", "empty", "--bounces", "65536"}, "--bounces"},
+    {"NegativeSeed", {"render", "empty", "--seed", "-5"}, "--seed"},
+    {"ZeroTime", {"render", "empty", "--time", "0"}, "--time '0'"},
+    {"InfiniteTime", {"render", "empty", "--time", "inf"}, "--time"},
+    {"ErrorIsNoNumber", {"render", "empty", "--error", "nan"}, "--error"},
+    {"ExposureWithUnit", {"render", "empty", "--exposure", "1EV"}, "--exposure"},
+    {"UnknownTonemap", {"render", "empty", "--tonemap", "sepia"}, "agx"},
+    {"UnknownLayer", {"render", "empty", "-o", "a.exr", "--aov", "albedo,shininess"}, "shininess"},
+    {"LayersWithoutExr", {"render", "empty", "-o", "a.png", "--aov", "albedo"}, "--aov"},
+    {"NegativeBackground", {"render", "empty", "--background", "1,-1,1"}, "--background"},
+    {"BackgroundOfTwo", {"render", "empty", "--background", "1,1"}, "--background"},
+    {"BackgroundAndEnvironment", {"render", "empty", "--background", "1,1,1", "--environment", "bad.hdr"}, "--environment"},
+    {"BadEnvironment", {"render", "empty", "--environment", "bad.hdr"}, "bad.hdr"},
+    {"MissingEnvironment", {"render", "empty", "--environment", "missing.exr"}, "missing.exr"},
+    {"OtherEnvironment", {"render", "empty", "--environment", "notes.txt"}, "notes.txt"},
+    {"UnknownCamera", {"render", "cornell", "--camera", "nobody"}, "nobody"},
+    {"CameraOutOfRange", {"render", "cornell", "--camera", "77"}, "77"},
+    {"OtherOutput", {"render", "empty", "-o", "picture.jpg"}, "picture.jpg"},
+    {"OutputIsFolder", {"render", "empty", "-o", "folder.png"}, "folder.png"},
+    {"OutputInMissingFolder", {"render", "empty", "-o", "nowhere/picture.png"}, "nowhere"},
+    {"UnwritableOutput", {"render", "empty", "-o", "/proc/picture.png"}, "/proc"},
+    {"SecondOutputUnwritable", {"render", "empty", "-o", "good.png", "-o", "/proc/picture.exr"}, "/proc"},
+    {"UnwritableReport", {"render", "empty", "--report", "/proc/report.json"}, "/proc"},
+    {"ReportIsFolder", {"render", "empty", "--report", "folder"}, "folder"},
+    {"UnknownDevice", {"render", "empty", "--device", "abacus"}, "abacus"},
+    {"TooLateFirstSample", {"render", "empty", "--first-sample", "4294967290", "--spp", "100"}, "--first-sample"},
+};
+
+INSTANTIATE_TEST_SUITE_P(Cli, BadInputTest, testing::ValuesIn(kBadInputs),
+                         [](const testing::TestParamInfo<BadInput>& bad) { return bad.param.name; });
+
+TEST(BadInput, LineBreaksInAFileNameStayInOneLine) {
+    const ScratchFolder folder;
+    const Outcome outcome = runLicht(folder, {"render", "two\nlines.glb"});
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_EQ(outcome.errorLines().size(), 1U) << outcome.err;
+}
+
+TEST(BadInput, NoDisplayForTheViewer) {
+    const ScratchFolder folder;
+    const Outcome outcome = runLicht(folder, {"view", "empty"}, {{"DISPLAY", ""}, {"WAYLAND_DISPLAY", ""}});
+    EXPECT_EQ(outcome.exit_code, 2);
+    ASSERT_EQ(outcome.errorLines().size(), 1U) << outcome.err;
+    EXPECT_NE(outcome.err.find("licht render"), std::string::npos) << outcome.err;
+}
+
+TEST(BadInput, NoVulkanDriverIsADeviceFailure) {
+    const ScratchFolder folder;
+    // The old and the new name of the variable that tells the loader where drivers are.
+    const Environment no_driver{{"VK_ICD_FILENAMES", "/nowhere"}, {"VK_DRIVER_FILES", "/nowhere"}, {"LICHT_VALIDATION", "0"}};
+    for (const Words& arguments : {Words{"devices"}, Words{"render", "empty"}}) {
+        const Outcome outcome = runLicht(folder, arguments, no_driver);
+        EXPECT_EQ(outcome.exit_code, 1);
+        EXPECT_EQ(outcome.errorLines().size(), 1U) << outcome.err;
+        EXPECT_EQ(outcome.err.rfind("licht: ", 0), 0U) << outcome.err;
+    }
+    EXPECT_TRUE(folder.contents().empty());
+}
+
+}  // namespace
+}  // namespace licht::test

@@ -1,0 +1,30 @@
+# Installs into a scratch prefix, builds samples/minimal against it, runs it and looks at its picture.
+function(run)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output WORKING_DIRECTORY ${SCRATCH})
+  if(NOT result EQUAL 0)
+    list(JOIN ARGN " " command)
+    message(FATAL_ERROR "${command}\n${output}\nended with ${result}")
+  endif()
+endfunction()
+
+file(REMOVE_RECURSE ${SCRATCH})
+file(MAKE_DIRECTORY ${SCRATCH})
+run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${SCRATCH}/prefix)
+set(flags)
+if(SANITIZE)
+  set(flags -DCMAKE_CXX_FLAGS=-fsanitize=${SANITIZE})
+endif()
+run(${CMAKE_COMMAND} -G ${GENERATOR} -S ${SOURCE} -B ${SCRATCH}/build -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH=${SCRATCH}/prefix
+    -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_C_COMPILER=${C_COMPILER} ${flags})
+run(${CMAKE_COMMAND} --build ${SCRATCH}/build)
+run(${SCRATCH}/build/minimal)
+run(${SCRATCH}/prefix/bin/licht --version)
+
+# Signature, then the header chunk with 320 x 180; the last twelve bytes are the end chunk of a complete file.
+file(SIZE ${SCRATCH}/minimal.png size)
+file(READ ${SCRATCH}/minimal.png head LIMIT 24 HEX)
+math(EXPR end "${size} - 12")
+file(READ ${SCRATCH}/minimal.png tail OFFSET ${end} HEX)
+if(NOT head STREQUAL "89504e470d0a1a0a0000000d4948445200000140000000b4" OR NOT tail STREQUAL "0000000049454e44ae426082")
+  message(FATAL_ERROR "minimal.png is not a complete 320x180 PNG: ${head} ... ${tail}")
+endif()

@@ -1,0 +1,73 @@
+#include "licht/command/options.h"
+
+#include <gtest/gtest.h>
+
+#include "licht/core/error.h"
+
+namespace licht {
+namespace {
+
+TEST(ParseSize, TakesWhatIsInRange) {
+    EXPECT_EQ(parseSize("--size", "960x540"), uvec2(960, 540));
+    EXPECT_EQ(parseSize("--size", "1x1"), uvec2(1, 1));
+    EXPECT_EQ(parseSize("--size", "16384x8192"), uvec2(16384, 8192));  // 2^27 pixels exactly
+    for (const char* bad : {"", "x", "0x1", "1x0", "16385x1", "16384x8193", "-1x1", "1x1x1", "1X1", " 1x1", "1x1 ", "1.5x1", "+1x1"})
+        EXPECT_THROW(parseSize("--size", bad), InputError) << bad;
+}
+
+TEST(ParseCount, TakesWhatIsInRange) {
+    EXPECT_EQ(parseCount32("--spp", "4294967295", 1, 4294967295U), 4294967295U);
+    EXPECT_EQ(parseCount("--spp", "3", 3, 3), 3U);
+    for (const char* bad : {"", "2", "4", "-3", "3.0", "3 ", "0x3", "99999999999999999999999"})
+        EXPECT_THROW(parseCount("--spp", bad, 3, 3), InputError) << bad;
+}
+
+TEST(ParsePositive, RefusesZeroAndWhatIsNotFinite) {
+    EXPECT_DOUBLE_EQ(parsePositive("--time", "1.5e-3"), 1.5e-3);
+    for (const char* bad : {"", "0", "-0.0", "-1", "inf", "nan", "1e999", "1s"}) EXPECT_THROW(parsePositive("--time", bad), InputError) << bad;
+}
+
+TEST(ParseExposure, TakesBothSigns) {
+    EXPECT_DOUBLE_EQ(parseExposure("--exposure", "-2.5"), -2.5);
+    for (const char* bad : {"", "65", "-65", "nan", "inf"}) EXPECT_THROW(parseExposure("--exposure", bad), InputError) << bad;
+}
+
+TEST(ParseColour, TakesThreeNumbers) {
+    EXPECT_EQ(parseColour("--background", "0,0.5,1e3"), vec3(0.0F, 0.5F, 1000.0F));
+    for (const char* bad : {"", "1", "1,1", "1,1,1,1", "1,,1", "1,1,-1", "1,1,inf", "1,1,1e40", "a,b,c"})
+        EXPECT_THROW(parseColour("--background", bad), InputError) << bad;
+}
+
+TEST(ParseLayers, TakesNamesOrAll) {
+    const Layers some = parseLayers("--aov", "albedo,sampleCount");
+    EXPECT_TRUE(some.aovs.albedo && some.sample_count);
+    EXPECT_FALSE(some.aovs.normal || some.aovs.depth || some.aovs.motion || some.variance);
+    const Layers all = parseLayers("--aov", "all");
+    EXPECT_TRUE(all.aovs.albedo && all.aovs.normal && all.aovs.depth && all.aovs.motion && all.variance && all.sample_count);
+    for (const char* bad : {"", "albedo,", "Albedo", "albedo,all"}) EXPECT_THROW(parseLayers("--aov", bad), InputError) << bad;
+}
+
+TEST(ParseOutput, KnowsTwoEndings) {
+    EXPECT_EQ(parseOutput("-o", "a/b.PNG"), "a/b.PNG");
+    EXPECT_EQ(parseOutput("-o", "b.exr"), "b.exr");
+    for (const char* bad : {"", ".png", "a", "a.jpg", "a.png.gz"}) EXPECT_THROW(parseOutput("-o", bad), InputError) << bad;
+}
+
+TEST(ParseChoices, KnowTheirNames) {
+    EXPECT_EQ(parseTonemap("--tonemap", "agx"), Tonemap::agx);
+    EXPECT_EQ(parseDirectLight("--direct", "hemisphere"), DirectLight::hemisphere);
+    EXPECT_THROW(parseTonemap("--tonemap", "AGX"), InputError);
+    EXPECT_THROW(parseDirectLight("--direct", ""), InputError);
+}
+
+TEST(Parsers, NameOptionAndValue) {
+    try {
+        parseSize("--size", "0x0");
+        FAIL() << "no error";
+    } catch (const InputError& error) {
+        EXPECT_NE(std::string(error.what()).find("--size '0x0'"), std::string::npos) << error.what();
+    }
+}
+
+}  // namespace
+}  // namespace licht

@@ -1,0 +1,314 @@
+// The traversal on the device finds what testing every triangle on the host finds, bit for bit: the
+// operations are the same and lavapipe rounds every one of them correctly. (Vulkan allows a division 2.5 ulp;
+// a device that uses this may differ in the last bits.)
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cstring>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "licht/bvh/bvh.h"
+#include "licht/gpu/commands.h"
+#include "licht/shared/records.h"
+#include "licht/spirv/traversal_comp.h"
+#include "support/gpu_test.h"
+#include "unit/bvh_meshes.h"
+
+namespace licht {
+namespace {
+
+using test::Mesh;
+using test::Random;
+using test::soup;
+using test::sphere;
+
+struct Query {
+    std::uint32_t ray_count = 0;
+    std::uint32_t any_hit = 0;
+    std::uint32_t refused = 0;
+    std::uint32_t stride = 0;
+};
+
+constexpr std::uint32_t kCut = 0xfffffffeU;  // what traversal.comp writes for a walk that was cut
+
+/// A scene on the device.
+class Tracer {
+public:
+    Tracer(std::vector<BvhTriangle> triangles, bool in_storage)
+        : triangles_(std::move(triangles)),
+          bvh_(buildBvh(triangles_)),
+          program_(gpu::Program::compute(device(), "traversal", traversal_comp,
+                                         {{64, in_storage ? 1U : 0U}, {65, bvh_.max_stack}})) {
+        std::vector<vec4> vertices;
+        for (const std::uint32_t id : bvh_.triangle_ids) {
+            for (const vec3& vertex : {triangles_[id].v0, triangles_[id].v1, triangles_[id].v2}) {
+                vertices.emplace_back(vertex, 0.0F);
+            }
+        }
+        constexpr VkBufferUsageFlags kUsage =
+            VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
+        nodes_ = gpu::uploadBuffer(device(), "nodes", std::span<const BvhNode>(bvh_.nodes), kUsage);
+        vertices_ = gpu::uploadBuffer(device(), "vertices", std::span<const vec4>(vertices), kUsage);
+        ids_ = gpu::uploadBuffer(device(), "ids", std::span<const std::uint32_t>(bvh_.triangle_ids), kUsage);
+        node_view_ = gpu::TexelView(device(), nodes_, VK_FORMAT_R32G32B32A32_SFLOAT);
+        child_view_ = gpu::TexelView(device(), nodes_, VK_FORMAT_R32G32B32A32_UINT);
+        vertex_view_ = gpu::TexelView(device(), vertices_, VK_FORMAT_R32G32B32A32_SFLOAT);
+    }
+
+    [[nodiscard]] const std::vector<BvhTriangle>& triangles() const { return triangles_; }
+    [[nodiscard]] const Bvh& bvh() const { return bvh_; }
+
+    /// Walks so far that the device did not finish.
+    [[nodiscard]] int cutWalks() const { return cut_walks_; }
+
+    std::vector<std::optional<BvhHit>> trace(const std::vector<Ray>& rays, Query query = {}) {
+        std::vector<vec4> data;
+        for (const Ray& ray : rays) {
+            data.emplace_back(ray.origin, ray.t_min);
+            data.emplace_back(ray.direction, ray.t_max);
+        }
+        const gpu::Buffer input = gpu::uploadBuffer(device(), "rays", std::span<const vec4>(data),
+                                                    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+        const gpu::Buffer output(device(), "hits", rays.size() * sizeof(vec4),
+                                 VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+                                 gpu::Memory::device);
+        const std::vector<gpu::BoundResource> resources{
+            {"rays", &input},
+            {"hits", &output},
+            {"bvh_nodes", &node_view_},
+            {"bvh_children", &child_view_},
+            {"bvh_triangles", &vertex_view_},
+            {"bvh_nodes_storage", &nodes_},
+            {"bvh_children_storage", &nodes_},
+            {"bvh_triangles_storage", &vertices_},
+            {"bvh_triangle_ids", &ids_},
+        };
+        const gpu::Bindings bindings(device(), program_, resources);
+        query.ray_count = static_cast<std::uint32_t>(rays.size());
+        gpu::Commands commands(device());
+        commands.begin();
+        commands.pass(
+            "trace", {{&input, gpu::Access::compute_read}, {&output, gpu::Access::compute_write}},
+            [&](const gpu::Pass& pass) { pass.dispatch(program_, bindings, query, query.ray_count); });
+        commands.submit();
+        commands.wait();
+
+        const std::vector<std::byte> bytes = gpu::readBuffer(device(), output);
+        std::vector<vec4> raw(rays.size());
+        std::memcpy(raw.data(), bytes.data(), raw.size() * sizeof(vec4));
+        std::vector<std::optional<BvhHit>> hits;
+        for (const vec4& hit : raw) {
+            const auto position = std::bit_cast<std::uint32_t>(hit.x);
+            cut_walks_ += position == kCut ? 1 : 0;
+            hits.push_back(position == kNoIndex || position == kCut
+                               ? std::nullopt
+                               : std::optional(BvhHit{bvh_.triangle_ids.at(position), hit.y, hit.z, hit.w}));
+        }
+        return hits;
+    }
+
+private:
+    int cut_walks_ = 0;
+    static gpu::Device& device() { return gpu::testDevice(); }
+
+    std::vector<BvhTriangle> triangles_;
+    Bvh bvh_;
+    gpu::Program program_;
+    gpu::Buffer nodes_, vertices_, ids_;
+    gpu::TexelView node_view_, child_view_, vertex_view_;
+};
+
+std::vector<Ray> randomRays(int count, float half, std::uint32_t seed) {
+    Random random(seed);
+    std::vector<Ray> rays;
+    for (int i = 0; i < count; ++i) {
+        rays.push_back({random.inCube(half), random.direction()});
+        if (i % 4 == 0) {
+            rays.back().t_min = random.uniform(0.0F, 0.5F);
+            rays.back().t_max = random.uniform(0.4F, 2.0F);
+        }
+    }
+    return rays;
+}
+
+/// Returns how many rays hit.
+int expectSameHits(Tracer& tracer, const std::vector<Ray>& rays) {
+    const auto found = tracer.trace(rays);
+    const auto any = tracer.trace(rays, {0, 1, 0, 0});
+    EXPECT_EQ(tracer.cutWalks(), 0);
+    int hits = 0;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        const auto expected = intersectBruteForce(tracer.triangles(), rays[i]);
+        EXPECT_EQ(found[i].has_value(), expected.has_value()) << i;
+        EXPECT_EQ(any[i].has_value(), expected.has_value()) << i;
+        if (found[i] && expected) {
+            ++hits;
+            EXPECT_EQ(found[i]->triangle, expected->triangle) << i;
+            EXPECT_EQ(found[i]->t, expected->t) << i;
+            EXPECT_EQ(found[i]->b1, expected->b1) << i;
+            EXPECT_EQ(found[i]->b2, expected->b2) << i;
+        }
+    }
+    return hits;
+}
+
+class Traversal : public testing::TestWithParam<bool> {};
+INSTANTIATE_TEST_SUITE_P(Memory, Traversal, testing::Bool(),
+                         [](const auto& memory) { return memory.param ? "storage" : "texels"; });
+
+TEST_P(Traversal, FindsWhatTestingEveryTriangleFinds) {
+    Tracer tracer(soup(1'000, 0.2F, 1), GetParam());
+    EXPECT_GT(expectSameHits(tracer, randomRays(4'000, 1.5F, 2)), 1'000);
+}
+
+TEST_P(Traversal, SliversSeenEdgeOnAndDuplicatesOnAGrazedFloor) {
+    Random random(3);
+    std::vector<BvhTriangle> triangles;
+    for (int i = 0; i < 500; ++i) {
+        const vec3 a = random.inCube(1.0F);
+        const vec3 b = random.inCube(1.0F);
+        triangles.push_back({a, b, glm::mix(a, b, 0.3F) + random.inCube(std::ldexp(1.0F, -(i % 24)))});
+    }
+    for (int i = 0; i < 100; ++i) {
+        const auto onFloor = [&] { return vec3(random.uniform(-2, 2), -0.3F, random.uniform(-2, 2)); };
+        const BvhTriangle floor{onFloor(), onFloor(), onFloor()};
+        triangles.insert(triangles.end(), 4, floor);
+    }
+    std::vector<Ray> rays;
+    for (int i = 0; i < 4'000; ++i) {
+        const BvhTriangle& triangle = triangles[random.index(triangles.size())];
+        const vec3 origin = random.inCube(1.5F);
+        rays.push_back({origin, glm::mix(triangle.v0, triangle.v1, random.uniform(0.0F, 1.0F)) - origin});
+    }
+    Tracer tracer(triangles, GetParam());
+    EXPECT_GT(expectSameHits(tracer, rays), 2'000);
+}
+
+TEST_P(Traversal, EveryOrderOfMagnitude) {
+    Random random(4);
+    std::vector<BvhTriangle> triangles;
+    std::vector<Ray> rays;
+    for (int i = 0; i < 600; ++i) {
+        const float scale = std::ldexp(1.0F, i / 10 - 30);
+        const vec3 at = random.inCube(scale);
+        triangles.push_back(
+            {at + random.inCube(scale), at + random.inCube(scale), at + random.inCube(scale)});
+        const vec3 origin = random.inCube(4.0F * scale);
+        rays.push_back({origin, (at - origin) * std::ldexp(1.0F, i % 80 - 40)});
+    }
+    Tracer tracer(triangles, GetParam());
+    EXPECT_GT(expectSameHits(tracer, rays), 300);
+}
+
+TEST_P(Traversal, NoRayEscapesAClosedSphere) {
+    for (const vec3 centre : {vec3(0.0F), vec3(148376.0F, 1234.0F, -223423.0F)}) {
+        const Mesh mesh = sphere(centre, 2.0F, 12, 24);
+        Random random(5);
+        std::vector<Ray> rays;
+        for (int i = 0; i < 50'000; ++i) {
+            const vec3 origin = i % 5 == 0 ? centre : centre + random.inCube(1.0F);
+            const BvhTriangle& triangle = mesh.triangles[random.index(mesh.triangles.size())];
+            const vec3 targets[3] = {triangle.v0, 0.5F * triangle.v0 + 0.5F * triangle.v1,
+                                     origin + random.direction()};
+            rays.push_back({origin, targets[i % 3] - origin});
+        }
+        int escaped = 0;
+        Tracer tracer(mesh.triangles, GetParam());
+        for (const auto& hit : tracer.trace(rays)) {
+            escaped += hit ? 0 : 1;
+        }
+        EXPECT_EQ(escaped, 0);
+        EXPECT_EQ(tracer.cutWalks(), 0);
+    }
+}
+
+TEST_P(Traversal, RaysThatAreNotFiniteMiss) {
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    const Ray good{{0, 0, 1}, {0, 0, -1}};
+    std::vector<Ray> rays;
+    for (const float bad : {nan, kInfinity, -kInfinity}) {
+        for (int axis = 0; axis < 3; ++axis) {
+            rays.insert(rays.end(), 2, good);
+            rays[rays.size() - 2].origin[axis] = bad;
+            rays.back().direction[axis] = bad;
+        }
+    }
+    rays.push_back({{0, 0, 1}, {0, 0, 0}});
+    rays.push_back({{0, 0, 1}, {0, 0, -1}, nan, 2.0F});
+    rays.push_back({{0, 0, 1}, {0, 0, -1}, 0.0F, nan});
+    rays.push_back({{0, 0, 1}, {0, 0, -1}, 2.0F, 1.0F});
+    rays.push_back(good);
+    Tracer tracer({{{-9, -9, 0}, {9, -9, 0}, {0, 9, 0}}}, GetParam());
+    EXPECT_EQ(expectSameHits(tracer, rays), 1);
+    EXPECT_TRUE(tracer.trace(rays).back());
+}
+
+TEST_P(Traversal, RefusedHitsAreWalkedThrough) {
+    std::vector<BvhTriangle> triangles = soup(600, 0.3F, 6);
+    // Two that span the scene and stay, so that the kept ones alone have the same bounds.
+    triangles.push_back({{-2, -2, -2}, {-1.9F, -2, -2}, {-2, -1.9F, -2}});
+    triangles.push_back({{2, 2, 2}, {1.9F, 2, 2}, {2, 1.9F, 2}});
+    constexpr std::uint32_t kRefused = 3;
+    Tracer tracer(triangles, GetParam());
+    std::vector<BvhTriangle> kept = triangles;
+    for (std::uint32_t position = 0; position < tracer.bvh().triangle_ids.size(); position += kRefused) {
+        const std::uint32_t id = tracer.bvh().triangle_ids[position];
+        if (id < 600) {
+            kept[id] = {};  // without area
+        }
+    }
+    const auto rays = randomRays(2'000, 1.0F, 7);
+    const auto found = tracer.trace(rays, {0, 0, kRefused, 0});
+    int changed = 0;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        const auto expected = intersectBruteForce(kept, rays[i]);
+        const auto unfiltered = intersectBruteForce(triangles, rays[i]);
+        ASSERT_EQ(found[i].has_value(), expected.has_value()) << i;
+        if (found[i]) {
+            EXPECT_EQ(found[i]->triangle, expected->triangle) << i;
+            EXPECT_EQ(found[i]->t, expected->t) << i;
+            changed += unfiltered->triangle != expected->triangle ? 1 : 0;
+        }
+    }
+    EXPECT_GT(changed, 100);
+}
+
+TEST_P(Traversal, AnEmptySceneIsMissed) {
+    Tracer tracer({}, GetParam());
+    EXPECT_EQ(expectSameHits(tracer, randomRays(100, 1.0F, 8)), 0);
+}
+
+// Equal triangles must all be looked at. Each ray accepts one of them alone, from the first to the last
+// position, so that a walk which ends early misses.
+int missesAmongEqualTriangles(Tracer& tracer, std::uint32_t stride) {
+    const std::vector<Ray> rays(tracer.triangles().size() / stride, Ray{{0.1F, -0.2F, 2.0F}, {0, 0, -1}});
+    const auto found = tracer.trace(rays, {0, 0, 0, stride});
+    int misses = 0;
+    for (std::uint32_t i = 0; i < rays.size(); ++i) {
+        misses += found[i] ? 0 : 1;
+        EXPECT_TRUE(!found[i] || found[i]->triangle == tracer.bvh().triangle_ids[i * stride]);
+    }
+    return misses;
+}
+
+constexpr BvhTriangle kTriangle{{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}};
+
+TEST_P(Traversal, LongWalksReachEveryTriangle) {
+    // At most one round a triangle and one for each of the nodes, of which there are fewer: below the 65,535
+    // rounds that every driver runs.
+    Tracer tracer(std::vector<BvhTriangle>(32'000, kTriangle), GetParam());
+    ASSERT_LT(tracer.triangles().size() + tracer.bvh().nodes.size(), 65'535U);
+    EXPECT_EQ(missesAmongEqualTriangles(tracer, 500), 0);
+    EXPECT_EQ(tracer.cutWalks(), 0);
+}
+
+TEST_P(Traversal, NoWalkIsCutSilently) {
+    Tracer tracer(std::vector<BvhTriangle>(320'000, kTriangle), GetParam());
+    const int misses = missesAmongEqualTriangles(tracer, 5'000);
+    EXPECT_EQ(misses, tracer.cutWalks());
+}
+
+}  // namespace
+}  // namespace licht
