@@ -14,18 +14,21 @@ report=out/gallery.json
 mkdir -p out
 # What was rendered by this very program need not be rendered again.
 if [ $# -gt 0 ] || [ ! -e $report ] || [ ! -e out/gallery.png ] || [ ! -e out/gallery.exr ] || [ "$licht" -nt $report ]; then
-    if [ $# = 0 ]; then set -- --time 60; fi
-    "$licht" render gallery -o out/gallery.png -o out/gallery.exr --size 960x540 --aov all --report $report "$@"
+    if [ $# = 0 ]; then set -- --size 960x540 --time 60; fi
+    "$licht" render gallery -o out/gallery.png -o out/gallery.exr --aov all --report $report "$@"
 fi
 
-# value KEY: the first value of that name in the report, which has one a line.
-value() { sed -n "s/^ *\"$1\": \"\{0,1\}\([^\",]*\)\"\{0,1\},\{0,1\}\$/\1/p" $report | head -n 1; }
-number() { LC_ALL=C awk -v value="$(value "$1")" -v format="$2" 'BEGIN { printf format, value }'; }
+# text KEY, number KEY FORMAT: the first value of that name in the report, which has one a line.
+text() { sed -n "s/^ *\"$1\": \"\(.*\)\",\{0,1\}\$/\1/p" $report | head -n 1; }
+number() {
+    value=$(sed -n "s/^ *\"$1\": \([-+.0-9e]*\),\{0,1\}\$/\1/p" $report | head -n 1)
+    if [ -z "$value" ]; then echo unknown; else LC_ALL=C awk -v value="$value" -v format="$2" 'BEGIN { printf format, value }'; fi
+}
 echo
 echo "Pictures:  $PWD/out/gallery.png and $PWD/out/gallery.exr (linear, with layers)"
-echo "Cost:      $(value spp) samples per pixel in $(number render '%.1f') s on $(value device);" \
+echo "Cost:      $(number spp '%d') samples per pixel in $(number render '%.1f') s on $(text device);" \
     "first picture $(number first_image '%.1f') s after the start"
-echo "Error:     $(number relative_error '%.3f') relative (estimated)"
+echo "Error:     $(number relative_error '%.3f') (relative, estimated)"
 echo "Report:    $PWD/$report"
 
 if [ -n "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ]; then

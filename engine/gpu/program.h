@@ -46,7 +46,9 @@ std::vector<ReflectedMember> reflectStruct(Spirv spirv, const std::string& name)
 using SpecConstants = std::map<std::uint32_t, std::uint32_t>;
 
 /// Fixed state of a raster program. Depth is reversed: nearer is greater. Viewport, scissor and cull mode are
-/// dynamic.
+/// dynamic. A front face goes counter-clockwise as one sees it on the screen, which is what a world-space
+/// counter-clockwise triangle does under a projection that shows the world upright. Vertices are pulled from
+/// storage buffers, which must be `readonly` in the vertex shader.
 struct RasterState {
     std::vector<VkFormat> color_formats;
     VkFormat depth_format = VK_FORMAT_UNDEFINED;  ///< undefined: no depth

@@ -127,6 +127,7 @@ void Renderer::State::collect(Slot& slot) {
     statistics.bounce_rays += counts.bounce_rays;
     statistics.shadow_rays += counts.shadow_rays;
     statistics.nonfinite_samples += counts.nonfinite_samples;
+    statistics.cut_walks += counts.cut_walks;
 }
 
 Slot& Renderer::State::nextSlot() {

@@ -67,6 +67,8 @@ struct RenderStatistics {
     std::uint64_t bounce_rays = 0;
     std::uint64_t shadow_rays = 0;
     std::uint64_t nonfinite_samples = 0;
+    /// Samples in which a driver that limits the loops of a shader ended a BVH traversal early: they may have missed a surface.
+    std::uint64_t cut_walks = 0;
 };
 
 /// The frame, in order: gbuffer -> trace -> accumulate -> tonemap. Offscreen and windowed use the same one.

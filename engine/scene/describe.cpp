@@ -11,7 +11,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json vectorOf(const vec3& v) { return {v.x, v.y, v.z}; }
+Json vectorOf(const vec3& v) {
+    return {v.x, v.y, v.z};
+}
 
 std::string_view nameOf(PunctualLight::Kind kind) {
     switch (kind) {
@@ -54,15 +56,22 @@ Json describeContents(const Scene& scene) {
     json["texture_bytes"] = counts.texture_bytes;
     json["textures"] = Json::array();
     for (const Texture& t : scene.textures) {
-        json["textures"].push_back({{"name", t.name}, {"width", t.width}, {"height", t.height}, {"bits", t.bits}, {"bytes", t.bytes.size()}});
+        json["textures"].push_back({{"name", t.name},
+                                    {"width", t.width},
+                                    {"height", t.height},
+                                    {"bits", t.bits},
+                                    {"bytes", t.bytes.size()}});
     }
     json["cameras"] = Json::array();
     for (const Camera& c : scene.cameras) {
-        json["cameras"].push_back({{"name", c.name}, {"kind", c.kind == Camera::Kind::perspective ? "perspective" : "orthographic"}});
+        json["cameras"].push_back(
+            {{"name", c.name},
+             {"kind", c.kind == Camera::Kind::perspective ? "perspective" : "orthographic"}});
     }
     json["lights"] = Json::array();
     for (const PunctualLight& l : scene.lights) {
-        json["lights"].push_back({{"name", l.name}, {"kind", nameOf(l.kind)}, {"intensity", vectorOf(l.intensity)}});
+        json["lights"].push_back(
+            {{"name", l.name}, {"kind", nameOf(l.kind)}, {"intensity", vectorOf(l.intensity)}});
     }
     json["environment"] = nullptr;
     if (scene.environment) {
@@ -82,13 +91,15 @@ Json describe(const Scene& scene) {
     Json json = describeContents(scene);
     json["notes"] = Json::array();
     for (const SceneNote& note : scene.notes) {
-        json["notes"].push_back({{"kind", note.kind == SceneNote::Kind::warning ? "warning" : "skipped"}, {"text", note.text}});
+        json["notes"].push_back(
+            {{"kind", note.kind == SceneNote::Kind::warning ? "warning" : "skipped"}, {"text", note.text}});
     }
     const Effects effects = detectEffects(scene);
     json["effects"] = {{"on", Json::array()}, {"off", Json::array()}};
     for (const EffectInfo& info : effectTable()) {
         if (effects.has(info.id)) {
-            json["effects"]["on"].push_back({{"name", info.name}, {"evidence", effects.evidence.at(info.id)}});
+            json["effects"]["on"].push_back(
+                {{"name", info.name}, {"evidence", effects.evidence.at(info.id)}});
         } else {
             json["effects"]["off"].push_back(info.name);
         }
@@ -107,31 +118,37 @@ std::string describeSceneText(const Scene& scene) {
     const Counts counts = count(scene);
     const Bounds bounds = sceneBounds(scene);
     std::string text = fmt::format("scene '{}'\n", scene.name);
-    text += fmt::format("  geometry     {} triangles, {} vertices, {} instances of {} meshes\n", counts.triangles, counts.vertices,
-                        scene.instances.size(), scene.meshes.size());
+    text += fmt::format("  geometry     {} triangles, {} vertices, {} instances of {} meshes\n",
+                        counts.triangles, counts.vertices, scene.instances.size(), scene.meshes.size());
     if (bounds.empty()) {
         text += "  bounds       empty\n";
     } else {
-        text += fmt::format("  bounds       ({:.4g}, {:.4g}, {:.4g}) to ({:.4g}, {:.4g}, {:.4g}) m\n", bounds.lower.x, bounds.lower.y,
-                            bounds.lower.z, bounds.upper.x, bounds.upper.y, bounds.upper.z);
+        text += fmt::format("  bounds       ({:.4g}, {:.4g}, {:.4g}) to ({:.4g}, {:.4g}, {:.4g}) m\n",
+                            bounds.lower.x, bounds.lower.y, bounds.lower.z, bounds.upper.x, bounds.upper.y,
+                            bounds.upper.z);
     }
     text += fmt::format("  materials    {}\n", scene.materials.size());
-    text += fmt::format("  textures     {}, {:.1f} MiB\n", scene.textures.size(), static_cast<double>(counts.texture_bytes) / (1024.0 * 1024.0));
+    text += fmt::format("  textures     {}, {:.1f} MiB\n", scene.textures.size(),
+                        static_cast<double>(counts.texture_bytes) / (1024.0 * 1024.0));
     for (const Texture& t : scene.textures) {
-        text += fmt::format("    '{}' {}x{}, {} bits, {} bytes\n", t.name, t.width, t.height, t.bits, t.bytes.size());
+        text += fmt::format("    '{}' {}x{}, {} bits, {} bytes\n", t.name, t.width, t.height, t.bits,
+                            t.bytes.size());
     }
     text += fmt::format("  cameras      {}\n", scene.cameras.size());
     for (const Camera& c : scene.cameras) {
-        text += fmt::format("    '{}' {}\n", c.name, c.kind == Camera::Kind::perspective ? "perspective" : "orthographic");
+        text += fmt::format("    '{}' {}\n", c.name,
+                            c.kind == Camera::Kind::perspective ? "perspective" : "orthographic");
     }
     text += fmt::format("  lights       {}\n", scene.lights.size());
     for (const PunctualLight& l : scene.lights) {
-        text += fmt::format("    '{}' {}, ({:.4g}, {:.4g}, {:.4g}) {}\n", l.name, nameOf(l.kind), l.intensity.x, l.intensity.y, l.intensity.z,
+        text += fmt::format("    '{}' {}, ({:.4g}, {:.4g}, {:.4g}) {}\n", l.name, nameOf(l.kind),
+                            l.intensity.x, l.intensity.y, l.intensity.z,
                             l.kind == PunctualLight::Kind::directional ? "lx" : "cd");
     }
-    text += scene.environment ? fmt::format("  environment  '{}' {}x{}\n", scene.environment->name, scene.environment->radiance.width,
-                                            scene.environment->radiance.height)
-                              : "  environment  none\n";
+    text += scene.environment
+                ? fmt::format("  environment  '{}' {}x{}\n", scene.environment->name,
+                              scene.environment->radiance.width, scene.environment->radiance.height)
+                : "  environment  none\n";
     const Effects effects = detectEffects(scene);
     std::string off;
     text += "  effects on\n";
@@ -144,7 +161,8 @@ std::string describeSceneText(const Scene& scene) {
     }
     text += fmt::format("  effects off {}\n", off);
     for (const SceneNote& note : scene.notes) {
-        text += fmt::format("  {}: {}\n", note.kind == SceneNote::Kind::warning ? "warning" : "skipped", note.text);
+        text += fmt::format("  {}: {}\n", note.kind == SceneNote::Kind::warning ? "warning" : "skipped",
+                            note.text);
     }
     return text;
 }

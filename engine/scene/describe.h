@@ -5,8 +5,8 @@
 
 namespace licht {
 
-/// What is in a scene: counts, textures and their bytes, cameras, lights, bounds, what was skipped or changed and why, and which effects
-/// it calls for, each with the object that called. For people.
+/// What is in a scene: counts, textures and their bytes, cameras, lights, bounds, what was skipped or changed
+/// and why, and which effects it calls for, each with the object that called. For people.
 std::string describeSceneText(const Scene& scene);
 
 /// The same as a JSON object.

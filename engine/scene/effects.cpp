@@ -15,14 +15,17 @@ const std::array<EffectInfo, kEffectCount>& effectTable() {
         {kEffectTextures, "textures", "materials read textures", "texels,textures", "gbuffer,path"},
         {kEffectNormalMaps, "normalMaps", "normal maps bend the shading frame", "tangents", "path"},
         {kEffectVertexColors, "vertexColors", "vertices carry colours", "colors", "gbuffer,path"},
-        {kEffectExtraUvSets, "extraUvSets", "textures read more than the first set of coordinates", "extra_uvs",
-         "gbuffer,path"},
+        {kEffectExtraUvSets, "extraUvSets", "textures read more than the first set of coordinates",
+         "extra_uvs", "gbuffer,path"},
         {kEffectAlpha, "alpha", "surfaces with holes or partial coverage", "", "gbuffer,path"},
         {kEffectGlossy, "glossy", "microfacet reflection", "", "path"},
         {kEffectEmission, "emission", "surfaces that emit light", "", "path"},
-        {kEffectLightTriangles, "lightTriangles", "emissive triangles are sampled as lights", "lights,light_alias", "path"},
-        {kEffectPunctualLights, "punctualLights", "point, spot and directional lights", "lights,light_alias", "path"},
-        {kEffectEnvironment, "environment", "light from infinitely far", "environment_map,environment_alias", "path"},
+        {kEffectLightTriangles, "lightTriangles", "emissive triangles are sampled as lights",
+         "lights,light_alias", "path"},
+        {kEffectPunctualLights, "punctualLights", "point, spot and directional lights", "lights,light_alias",
+         "path"},
+        {kEffectEnvironment, "environment", "light from infinitely far", "environment_map,environment_alias",
+         "path"},
         {kEffectUnlit, "unlit", "surfaces that show their colour without light", "", "path"},
     }};
     return kTable;
@@ -40,14 +43,23 @@ std::vector<std::string> Effects::names() const {
 
 namespace {
 
-bool anyPositive(const vec3& v) { return v.x > 0.0F || v.y > 0.0F || v.z > 0.0F; }
+bool anyPositive(const vec3& v) {
+    return v.x > 0.0F || v.y > 0.0F || v.z > 0.0F;
+}
 
-bool emits(const Material& m) { return !m.unlit && anyPositive(m.emission); }
+bool emits(const Material& m) {
+    return !m.unlit && anyPositive(m.emission);
+}
 
-/// Whatever ior and specular colour: at grazing angles Schlick's curve rises to `specular` (KHR_materials_specular), even from zero.
-bool dielectricReflects(const Material& m) { return m.specular > 0.0F; }
+/// Whatever ior and specular colour: at grazing angles Schlick's curve rises to `specular`
+/// (KHR_materials_specular), even from zero.
+bool dielectricReflects(const Material& m) {
+    return m.specular > 0.0F;
+}
 
-bool glossy(const Material& m) { return !m.unlit && (m.metallic > 0.0F || dielectricReflects(m)); }
+bool glossy(const Material& m) {
+    return !m.unlit && (m.metallic > 0.0F || dielectricReflects(m));
+}
 
 bool hasColors(const Mesh& mesh) {
     return std::any_of(mesh.colors.begin(), mesh.colors.end(), [](const vec4& c) { return c != vec4(1.0F); });
@@ -62,7 +74,9 @@ bool alphaMatters(const Material& m, const Mesh& mesh) {
     return m.base_color_texture.present() || hasColors(mesh) || m.base_color.w < whole;
 }
 
-bool bendsNormals(const Material& m) { return !m.unlit && m.normal_texture.present() && m.normal_scale != 0.0F; }
+bool bendsNormals(const Material& m) {
+    return !m.unlit && m.normal_texture.present() && m.normal_scale != 0.0F;
+}
 
 /// Only slots that can change a picture.
 struct NamedSlot {
@@ -85,7 +99,8 @@ std::vector<NamedSlot> influentialSlots(const Material& m, const Mesh& mesh) {
     return slots;
 }
 
-/// How much of a surface an emissive texture lights: the mean of its emission over the maximum. 1 without a texture, 0 for a black one.
+/// How much of a surface an emissive texture lights: the mean of its emission over the maximum. 1 without a
+/// texture, 0 for a black one.
 double litShare(const Scene& scene, const Material& m) {
     if (!m.emissive_texture.present()) {
         return 1.0;
@@ -158,8 +173,8 @@ private:
         for (const NamedSlot& named : influentialSlots(m, mesh)) {
             call(kEffectTextures, fmt::format("material '{}' has a {} texture", m.name, named.name));
             if (named.slot->uv_set > 0) {
-                call(kEffectExtraUvSets, fmt::format("material '{}' reads its {} texture by TEXCOORD_{}", m.name,
-                                                     named.name, named.slot->uv_set));
+                call(kEffectExtraUvSets, fmt::format("material '{}' reads its {} texture by TEXCOORD_{}",
+                                                     m.name, named.name, named.slot->uv_set));
             }
         }
         if (bendsNormals(m)) {
@@ -173,8 +188,9 @@ private:
                                            m.alpha_mode == AlphaMode::mask ? "MASK" : "BLEND"));
         }
         if (glossy(m)) {
-            call(kEffectGlossy, m.metallic > 0.0F ? fmt::format("material '{}' is metallic", m.name)
-                                                  : fmt::format("material '{}' reflects at its surface", m.name));
+            call(kEffectGlossy, m.metallic > 0.0F
+                                    ? fmt::format("material '{}' is metallic", m.name)
+                                    : fmt::format("material '{}' reflects at its surface", m.name));
         }
         if (emits(m)) {
             call(kEffectEmission, fmt::format("material '{}' emits", m.name));
@@ -193,14 +209,15 @@ private:
         if (scene_.environment) {
             const auto& texels = scene_.environment->radiance.texels;
             if (std::any_of(texels.begin(), texels.end(), [](float x) { return x > 0.0F; })) {
-                call(kEffectEnvironment, fmt::format("environment '{}' is not black", scene_.environment->name));
+                call(kEffectEnvironment,
+                     fmt::format("environment '{}' is not black", scene_.environment->name));
             }
         }
     }
 
-    /// Where most of the surface shines, scattered rays find the light by themselves and without noise (a closed furnace has none at
-    /// all); sampling its triangles too would only add noise. So they are sampled while they are less than half of the area, where a
-    /// textured surface counts by its lit share.
+    /// Where most of the surface shines, scattered rays find the light by themselves and without noise (a
+    /// closed furnace has none at all); sampling its triangles too would only add noise. So they are sampled
+    /// while they are less than half of the area, where a textured surface counts by its lit share.
     void lookAtEmittingArea() {
         if (!effects_.has(kEffectEmission)) {
             return;
@@ -212,14 +229,15 @@ private:
             const Mesh& mesh = scene_.meshes[instance.mesh];
             const double a = area(scene_, instance);
             all += a;
-            if (const Material& m = scene_.materials[mesh.material]; emits(m) && a > 0.0 && litShare(m) > 0.0) {
+            if (const Material& m = scene_.materials[mesh.material];
+                emits(m) && a > 0.0 && litShare(m) > 0.0) {
                 emitting += a * litShare(m);
                 first = first.empty() ? mesh.name : first;
             }
         }
         if (emitting > 0.0 && emitting < 0.5 * all) {
-            call(kEffectLightTriangles, fmt::format("mesh '{}' emits, and {:.3g} % of all surface does", first,
-                                                    100.0 * emitting / all));
+            call(kEffectLightTriangles, fmt::format("mesh '{}' emits, and {:.3g} % of all surface does",
+                                                    first, 100.0 * emitting / all));
         }
     }
 
@@ -238,7 +256,9 @@ private:
 
 }  // namespace
 
-Effects detectEffects(const Scene& scene) { return Detector(scene).run(); }
+Effects detectEffects(const Scene& scene) {
+    return Detector(scene).run();
+}
 
 Effects allEffects() {
     Effects effects;
@@ -249,8 +269,8 @@ Effects allEffects() {
 
 bool isDark(const Scene& scene) {
     const Effects effects = detectEffects(scene);
-    return !effects.has(kEffectEmission) && !effects.has(kEffectPunctualLights) && !effects.has(kEffectEnvironment) &&
-           !effects.has(kEffectUnlit);
+    return !effects.has(kEffectEmission) && !effects.has(kEffectPunctualLights) &&
+           !effects.has(kEffectEnvironment) && !effects.has(kEffectUnlit);
 }
 
 }  // namespace licht

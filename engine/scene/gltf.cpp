@@ -28,13 +28,16 @@ std::string_view placementFault(const mat4& world_from_object) {
     if (m[0][3] != 0.0 || m[1][3] != 0.0 || m[2][3] != 0.0 || m[3][3] != 1.0) {
         return "its transform is not affine";
     }
-    return glm::determinant(glm::dmat3(m)) == 0.0 ? "its transform flattens it (a scale or matrix that is singular)" : "";
+    return glm::determinant(glm::dmat3(m)) == 0.0
+               ? "its transform flattens it (a scale or matrix that is singular)"
+               : "";
 }
 
 /// Walks the visible nodes and fills the scene.
 class SceneBuilder {
 public:
-    SceneBuilder(Asset& asset, NodeTree tree) : asset_(asset), tree_(std::move(tree)), materials_(asset, scene_) {}
+    SceneBuilder(Asset& asset, NodeTree tree)
+        : asset_(asset), tree_(std::move(tree)), materials_(asset, scene_) {}
 
     Scene build() {
         for (const int node : tree_.visible) {
@@ -53,7 +56,8 @@ public:
             }
         }
         if (!asset_.model.animations.empty()) {
-            asset_.skip(fmt::format("{} animations are not played; the scene is in its rest pose", asset_.model.animations.size()));
+            asset_.skip(fmt::format("{} animations are not played; the scene is in its rest pose",
+                                    asset_.model.animations.size()));
         }
         scene_.notes = asset_.notes;
         return std::move(scene_);
@@ -65,7 +69,8 @@ private:
         const tinygltf::Node& source = asset_.model.nodes[index];
         const std::string name = objectName("node", index, source.name);
         const tinygltf::Mesh& mesh = at(asset_, asset_.model.meshes, source.mesh, name, "mesh");
-        // A skinned mesh stands where its joints are; its node's own transform does not count (glTF 2.0, 3.7.3.3).
+        // A skinned mesh stands where its joints are; its node's own transform does not count
+        // (glTF 2.0, 3.7.3.3).
         const bool skinned = source.skin != -1;
         const mat4 world_from_object = skinned ? mat4(1.0F) : mat4(tree_.world_from_node[index]);
         if (const std::string_view fault = placementFault(world_from_object); !fault.empty()) {
@@ -73,9 +78,11 @@ private:
             return;
         }
         for (std::size_t p = 0; p < mesh.primitives.size(); ++p) {
-            const std::uint32_t made = skinned || !source.weights.empty() ? makeMesh(node, p) : sharedMesh(node, p);
+            const std::uint32_t made =
+                skinned || !source.weights.empty() ? makeMesh(node, p) : sharedMesh(node, p);
             if (made != kNone) {
-                scene_.instances.push_back({source.name.empty() ? name : source.name, made, world_from_object});
+                scene_.instances.push_back(
+                    {source.name.empty() ? name : source.name, made, world_from_object});
             }
         }
     }
@@ -84,7 +91,8 @@ private:
     std::uint32_t sharedMesh(int node, std::size_t primitive) {
         const std::pair key(asset_.model.nodes[static_cast<std::size_t>(node)].mesh, primitive);
         const auto known = shared_.find(key);
-        return known != shared_.end() ? known->second : shared_.emplace(key, makeMesh(node, primitive)).first->second;
+        return known != shared_.end() ? known->second
+                                      : shared_.emplace(key, makeMesh(node, primitive)).first->second;
     }
 
     std::uint32_t makeMesh(int node, std::size_t primitive_index) {
@@ -94,7 +102,8 @@ private:
         const std::string mesh_name = objectName("mesh", static_cast<std::size_t>(source.mesh), mesh.name);
         const std::string name = fmt::format("{} primitive {}", mesh_name, primitive_index);
 
-        std::optional<Geometry> geometry = readGeometry(asset_, primitive, source.weights.empty() ? mesh.weights : source.weights, name);
+        std::optional<Geometry> geometry =
+            readGeometry(asset_, primitive, source.weights.empty() ? mesh.weights : source.weights, name);
         if (!geometry) {
             return kNone;
         }
@@ -123,11 +132,13 @@ private:
             inverse_bind = readMat4(asset_, skin.inverseBindMatrices, name);
         }
         if (inverse_bind.size() < skin.joints.size()) {
-            asset_.fail(name, fmt::format("it has {} joints and {} inverse bind matrices", skin.joints.size(), inverse_bind.size()));
+            asset_.fail(name, fmt::format("it has {} joints and {} inverse bind matrices", skin.joints.size(),
+                                          inverse_bind.size()));
         }
         std::vector<glm::dmat4> result;
         for (std::size_t j = 0; j < skin.joints.size(); ++j) {
-            result.push_back(at(asset_, tree_.world_from_node, skin.joints[j], name, "joint node") * glm::dmat4(inverse_bind[j]));
+            result.push_back(at(asset_, tree_.world_from_node, skin.joints[j], name, "joint node") *
+                             glm::dmat4(inverse_bind[j]));
         }
         return result;
     }

@@ -35,16 +35,20 @@ struct Elements {
     std::size_t stride = 0;
 };
 
-Elements elementsOf(const Asset& asset, int view, std::uint64_t offset, std::uint64_t stride, std::uint64_t size, std::uint64_t count,
-                    const std::string& object) {
+Elements elementsOf(const Asset& asset, int view, std::uint64_t offset, std::uint64_t stride,
+                    std::uint64_t size, std::uint64_t count, const std::string& object) {
     const std::span<const std::byte> bytes = viewBytes(asset, view, object);
     if (count == 0) {
         return {};
     }
-    const bool fits = offset <= bytes.size() && size <= bytes.size() - offset && (count - 1) <= (bytes.size() - offset - size) / stride;
+    const bool fits = offset <= bytes.size() && size <= bytes.size() - offset &&
+                      (count - 1) <= (bytes.size() - offset - size) / stride;
     if (!fits) {
-        asset.fail(object, fmt::format("{} elements of {} bytes from byte {} on do not fit into the {} bytes of buffer view {}", count,
-                                       size, offset, bytes.size(), view));
+        asset.fail(
+            object,
+            fmt::format(
+                "{} elements of {} bytes from byte {} on do not fit into the {} bytes of buffer view {}",
+                count, size, offset, bytes.size(), view));
     }
     return {bytes.data() + offset, stride};
 }
@@ -56,7 +60,9 @@ Value convert(const std::byte* source, bool normalized) {
     if constexpr (std::is_integral_v<Stored> && std::is_floating_point_v<Value>) {
         if (normalized) {
             // glTF 2.0, 3.6.2.2: c / max, and the lowest signed value clamps to -1.
-            return std::max(static_cast<Value>(stored) / static_cast<Value>(std::numeric_limits<Stored>::max()), Value(-1));
+            return std::max(
+                static_cast<Value>(stored) / static_cast<Value>(std::numeric_limits<Stored>::max()),
+                Value(-1));
         }
     }
     return static_cast<Value>(stored);
@@ -96,13 +102,18 @@ public:
     Reader(const Asset& asset, int accessor, std::string_view object)
         : asset_(asset),
           accessor_(at(asset, asset.model.accessors, accessor, object, "accessor")),
-          object_(fmt::format("{}: {}", object, objectName("accessor", static_cast<std::size_t>(accessor), accessor_.name))),
-          components_(static_cast<std::size_t>(tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor_.type)))),
+          object_(fmt::format("{}: {}", object,
+                              objectName("accessor", static_cast<std::size_t>(accessor), accessor_.name))),
+          components_(static_cast<std::size_t>(
+              tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor_.type)))),
           component_bytes_(componentBytes(accessor_.componentType)) {
-        const bool known = std::is_floating_point_v<Value> ? component_bytes_ > 0 && accessor_.componentType != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT
-                                                           : isUnsignedInteger(accessor_.componentType);
+        const bool known =
+            std::is_floating_point_v<Value>
+                ? component_bytes_ > 0 && accessor_.componentType != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT
+                : isUnsignedInteger(accessor_.componentType);
         if (!known) {
-            asset_.fail(object_, fmt::format("component type {} is not allowed here", accessor_.componentType));
+            asset_.fail(object_,
+                        fmt::format("component type {} is not allowed here", accessor_.componentType));
         }
         if (accessor_.count >= kNone || (accessor_.bufferView < 0 && accessor_.count > kMaxImpliedElements)) {
             asset_.fail(object_, fmt::format("{} elements are too many", accessor_.count));
@@ -118,9 +129,11 @@ public:
         std::vector<Value> values;
         const std::size_t size = components_ * component_bytes_;
         if (accessor_.bufferView >= 0) {
-            const tinygltf::BufferView& view = at(asset_, asset_.model.bufferViews, accessor_.bufferView, object_, "buffer view");
-            const Elements elements = elementsOf(asset_, accessor_.bufferView, accessor_.byteOffset,
-                                                 view.byteStride == 0 ? size : view.byteStride, size, accessor_.count, object_);
+            const tinygltf::BufferView& view =
+                at(asset_, asset_.model.bufferViews, accessor_.bufferView, object_, "buffer view");
+            const Elements elements =
+                elementsOf(asset_, accessor_.bufferView, accessor_.byteOffset,
+                           view.byteStride == 0 ? size : view.byteStride, size, accessor_.count, object_);
             values.resize(accessor_.count * components_);
             for (std::size_t i = 0; i < accessor_.count; ++i) {
                 copyElement(elements.first + i * elements.stride, values.data() + i * components_);
@@ -137,26 +150,32 @@ public:
 private:
     void copyElement(const std::byte* source, Value* target) const {
         for (std::size_t c = 0; c < components_; ++c) {
-            target[c] = component<Value>(source + c * component_bytes_, accessor_.componentType, accessor_.normalized);
+            target[c] = component<Value>(source + c * component_bytes_, accessor_.componentType,
+                                         accessor_.normalized);
         }
     }
 
     void overrideSparse(std::vector<Value>& values, std::size_t size) const {
         const auto& sparse = accessor_.sparse;
-        if (sparse.count < 0 || static_cast<std::size_t>(sparse.count) > accessor_.count || sparse.indices.byteOffset < 0 ||
-            sparse.values.byteOffset < 0 || !isUnsignedInteger(sparse.indices.componentType)) {
+        if (sparse.count < 0 || static_cast<std::size_t>(sparse.count) > accessor_.count ||
+            sparse.indices.byteOffset < 0 || sparse.values.byteOffset < 0 ||
+            !isUnsignedInteger(sparse.indices.componentType)) {
             asset_.fail(object_, "its sparse part is damaged");
         }
         const auto count = static_cast<std::size_t>(sparse.count);
         const std::size_t index_bytes = componentBytes(sparse.indices.componentType);
-        const Elements indices = elementsOf(asset_, sparse.indices.bufferView, static_cast<std::uint64_t>(sparse.indices.byteOffset),
+        const Elements indices = elementsOf(asset_, sparse.indices.bufferView,
+                                            static_cast<std::uint64_t>(sparse.indices.byteOffset),
                                             index_bytes, index_bytes, count, object_);
         const Elements replacements =
-            elementsOf(asset_, sparse.values.bufferView, static_cast<std::uint64_t>(sparse.values.byteOffset), size, size, count, object_);
+            elementsOf(asset_, sparse.values.bufferView, static_cast<std::uint64_t>(sparse.values.byteOffset),
+                       size, size, count, object_);
         for (std::size_t i = 0; i < count; ++i) {
-            const auto index = component<std::uint32_t>(indices.first + i * indices.stride, sparse.indices.componentType, false);
+            const auto index = component<std::uint32_t>(indices.first + i * indices.stride,
+                                                        sparse.indices.componentType, false);
             if (index >= accessor_.count) {
-                asset_.fail(object_, fmt::format("sparse index {} is not below its count {}", index, accessor_.count));
+                asset_.fail(object_,
+                            fmt::format("sparse index {} is not below its count {}", index, accessor_.count));
             }
             copyElement(replacements.first + i * replacements.stride, values.data() + index * components_);
         }
@@ -183,10 +202,18 @@ std::vector<Vector> readVectors(const Asset& asset, int accessor, std::string_vi
 
 }  // namespace
 
-std::vector<vec2> readVec2(const Asset& asset, int accessor, std::string_view object) { return readVectors<vec2>(asset, accessor, object); }
-std::vector<vec3> readVec3(const Asset& asset, int accessor, std::string_view object) { return readVectors<vec3>(asset, accessor, object); }
-std::vector<vec4> readVec4(const Asset& asset, int accessor, std::string_view object) { return readVectors<vec4>(asset, accessor, object); }
-std::vector<mat4> readMat4(const Asset& asset, int accessor, std::string_view object) { return readVectors<mat4>(asset, accessor, object); }
+std::vector<vec2> readVec2(const Asset& asset, int accessor, std::string_view object) {
+    return readVectors<vec2>(asset, accessor, object);
+}
+std::vector<vec3> readVec3(const Asset& asset, int accessor, std::string_view object) {
+    return readVectors<vec3>(asset, accessor, object);
+}
+std::vector<vec4> readVec4(const Asset& asset, int accessor, std::string_view object) {
+    return readVectors<vec4>(asset, accessor, object);
+}
+std::vector<mat4> readMat4(const Asset& asset, int accessor, std::string_view object) {
+    return readVectors<mat4>(asset, accessor, object);
+}
 
 std::vector<vec4> readColors(const Asset& asset, int accessor, std::string_view object) {
     Reader<float> reader(asset, accessor, object);
@@ -202,6 +229,8 @@ std::vector<vec4> readColors(const Asset& asset, int accessor, std::string_view 
 std::vector<std::uint32_t> readIndices(const Asset& asset, int accessor, std::string_view object) {
     return Reader<std::uint32_t>(asset, accessor, object).read(1);
 }
-std::vector<uvec4> readJoints(const Asset& asset, int accessor, std::string_view object) { return readVectors<uvec4>(asset, accessor, object); }
+std::vector<uvec4> readJoints(const Asset& asset, int accessor, std::string_view object) {
+    return readVectors<uvec4>(asset, accessor, object);
+}
 
 }  // namespace licht::gltf

@@ -1,5 +1,6 @@
 #pragma once
-// Accessors as plain arrays: bounds, component types, strides, normalisation and sparse overrides are dealt with here alone.
+// Accessors as plain arrays: bounds, component types, strides, normalisation and sparse overrides are dealt
+// with here alone.
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -10,7 +11,8 @@
 
 namespace licht::gltf {
 
-/// Elements of the accessor. `object` names who asks, for errors. All throw InputError when the accessor is damaged or of another shape.
+/// Elements of the accessor. `object` names who asks, for errors. All throw InputError when the accessor is
+/// damaged or of another shape.
 std::vector<vec2> readVec2(const Asset& asset, int accessor, std::string_view object);
 std::vector<vec3> readVec3(const Asset& asset, int accessor, std::string_view object);
 std::vector<vec4> readVec4(const Asset& asset, int accessor, std::string_view object);

@@ -17,8 +17,10 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr std::array<std::string_view, 7> kSupported{
-    "KHR_lights_punctual",    "KHR_materials_emissive_strength", "KHR_materials_unlit", "KHR_materials_specular",
-    "KHR_materials_ior",      "KHR_texture_transform",           "KHR_mesh_quantization"};
+    "KHR_lights_punctual",  "KHR_materials_emissive_strength",
+    "KHR_materials_unlit",  "KHR_materials_specular",
+    "KHR_materials_ior",    "KHR_texture_transform",
+    "KHR_mesh_quantization"};
 
 bool supported(std::string_view extension) {
     return std::find(kSupported.begin(), kSupported.end(), extension) != kSupported.end();
@@ -27,7 +29,8 @@ bool supported(std::string_view extension) {
 /// JSON nested deeper than this would end in recursion somewhere; glTF itself needs about ten levels.
 constexpr int kMaxJsonDepth = 200;
 
-/// How deep brackets nest outside of strings. (The parser could tell by a callback, but then takes quadratic time for long arrays.)
+/// How deep brackets nest outside of strings. (The parser could tell by a callback, but then takes quadratic
+/// time for long arrays.)
 int jsonDepth(std::string_view text) {
     int depth = 0;
     int deepest = 0;
@@ -82,20 +85,22 @@ void checkVersion(const Json& document, const std::string& file) {
     }
     const std::string least = stringOf(*asset, "minVersion");
     if (!version.starts_with("2.") || (!least.empty() && least != "2.0")) {
-        throw InputError(fmt::format("{}: glTF version {} is not supported, 2.0 is", file, oneLine(least.empty() ? version : least)));
+        throw InputError(fmt::format("{}: glTF version {} is not supported, 2.0 is", file,
+                                     oneLine(least.empty() ? version : least)));
     }
 }
 
 void checkExtensions(const Json& document, Asset& asset) {
     for (const Json& name : arrayOf(document, "extensionsRequired")) {
         if (name.is_string() && !supported(name.get_ref<const std::string&>())) {
-            throw InputError(
-                fmt::format("{}: required extension '{}' is not supported", asset.file, oneLine(name.get_ref<const std::string&>())));
+            throw InputError(fmt::format("{}: required extension '{}' is not supported", asset.file,
+                                         oneLine(name.get_ref<const std::string&>())));
         }
     }
     for (const Json& name : arrayOf(document, "extensionsUsed")) {
         if (name.is_string() && !supported(name.get_ref<const std::string&>())) {
-            asset.warn(fmt::format("extension '{}' is not supported and ignored", oneLine(name.get_ref<const std::string&>())));
+            asset.warn(fmt::format("extension '{}' is not supported and ignored",
+                                   oneLine(name.get_ref<const std::string&>())));
         }
     }
 }
@@ -103,7 +108,8 @@ void checkExtensions(const Json& document, Asset& asset) {
 void readBuffers(const Json& document, const Container& container, Asset& asset) {
     for (const Json& buffer : arrayOf(document, "buffers")) {
         const std::size_t index = asset.buffers.size();
-        const std::string object = objectName("buffer", index, buffer.is_object() ? stringOf(buffer, "name") : "");
+        const std::string object =
+            objectName("buffer", index, buffer.is_object() ? stringOf(buffer, "name") : "");
         const auto length = buffer.find("byteLength");
         if (!buffer.is_object() || length == buffer.end() || !length->is_number_unsigned()) {
             asset.fail(object, "byteLength is missing or no positive integer");
@@ -122,7 +128,8 @@ void readBuffers(const Json& document, const Container& container, Asset& asset)
             asset.fail(object, "it has neither a uri nor a binary chunk");
         }
         if (bytes.size() < size) {
-            asset.fail(object, fmt::format("byteLength is {}, but only {} bytes are there", size, bytes.size()));
+            asset.fail(object,
+                       fmt::format("byteLength is {}, but only {} bytes are there", size, bytes.size()));
         }
         bytes.resize(size);
         asset.buffers.push_back(std::move(bytes));
@@ -136,7 +143,8 @@ void readImages(const Json& document, Asset& asset) {
             source.name = stringOf(image, "name");
             source.uri = stringOf(image, "uri");
             const auto view = image.find("bufferView");
-            if (view != image.end() && view->is_number_unsigned() && view->get<std::uint64_t>() <= INT32_MAX) {
+            if (view != image.end() && view->is_number_unsigned() &&
+                view->get<std::uint64_t>() <= INT32_MAX) {
                 source.buffer_view = view->get<int>();
             }
         }
@@ -152,16 +160,17 @@ void parseModel(Json& document, Asset& asset) {
         throw InputError(fmt::format("{}: its JSON is larger than 4 GiB", asset.file));
     }
     tinygltf::TinyGLTF parser;
-    parser.SetFsCallbacks({[](const std::string&, void*) { return false; },
-                           [](const std::string& path, void*) { return path; },
-                           [](std::vector<unsigned char>*, std::string*, const std::string&, void*) { return false; },
-                           [](std::string*, const std::string&, const std::vector<unsigned char>&, void*) { return false; },
-                           nullptr});
+    parser.SetFsCallbacks(
+        {[](const std::string&, void*) { return false; }, [](const std::string& path, void*) { return path; },
+         [](std::vector<unsigned char>*, std::string*, const std::string&, void*) { return false; },
+         [](std::string*, const std::string&, const std::vector<unsigned char>&, void*) { return false; },
+         nullptr});
     std::string errors;
     std::string warnings;
     bool parsed = false;
     try {
-        parsed = parser.LoadASCIIFromString(&asset.model, &errors, &warnings, text.data(), static_cast<unsigned int>(text.size()), "");
+        parsed = parser.LoadASCIIFromString(&asset.model, &errors, &warnings, text.data(),
+                                            static_cast<unsigned int>(text.size()), "");
     } catch (const std::exception& e) {
         errors = e.what();
     }
@@ -191,14 +200,16 @@ void Asset::fail(std::string_view object, std::string_view reason) const {
 
 std::string objectName(std::string_view kind, std::size_t index, std::string_view name) {
     constexpr std::size_t kShownName = 80;
-    return name.empty() ? fmt::format("{} {}", kind, index) : fmt::format("{} {} '{}'", kind, index, oneLine(name, kShownName));
+    return name.empty() ? fmt::format("{} {}", kind, index)
+                        : fmt::format("{} {} '{}'", kind, index, oneLine(name, kShownName));
 }
 
 std::span<const std::byte> viewBytes(const Asset& asset, int view, std::string_view object) {
     const tinygltf::BufferView& v = at(asset, asset.model.bufferViews, view, object, "buffer view");
     const std::vector<std::byte>& buffer = at(asset, asset.buffers, v.buffer, object, "buffer");
     if (v.byteOffset > buffer.size() || v.byteLength > buffer.size() - v.byteOffset) {
-        asset.fail(object, fmt::format("buffer view {} reaches beyond the {} bytes of buffer {}", view, buffer.size(), v.buffer));
+        asset.fail(object, fmt::format("buffer view {} reaches beyond the {} bytes of buffer {}", view,
+                                       buffer.size(), v.buffer));
     }
     return std::span(buffer).subspan(v.byteOffset, v.byteLength);
 }

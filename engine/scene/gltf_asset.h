@@ -1,5 +1,6 @@
 #pragma once
-// A glTF file as it stands in memory: its structure (parsed by tinygltf) and its buffers, before anything is made of it.
+// A glTF file as it stands in memory: its structure (parsed by tinygltf) and its buffers, before anything is
+// made of it.
 #include <tiny_gltf.h>
 
 #include <cstddef>
@@ -24,7 +25,8 @@ struct ImageSource {
     int buffer_view = -1;
 };
 
-/// tinygltf sees the JSON without its buffers and images: it never opens a file. They are read here, through AssetFolder.
+/// tinygltf sees the JSON without its buffers and images: it never opens a file. They are read here, through
+/// AssetFolder.
 struct Asset {
     std::string file;  ///< for messages
     AssetFolder folder;
@@ -54,7 +56,8 @@ std::span<const std::byte> viewBytes(const Asset& asset, int view, std::string_v
 
 /// The element of that index, or an InputError "<object>: <what> <index> is not there".
 template <typename T>
-const T& at(const Asset& asset, const std::vector<T>& values, int index, std::string_view object, std::string_view what) {
+const T& at(const Asset& asset, const std::vector<T>& values, int index, std::string_view object,
+            std::string_view what) {
     if (index < 0 || static_cast<std::size_t>(index) >= values.size()) {
         asset.fail(object, std::string(what) + " " + std::to_string(index) + " is not there");
     }

@@ -36,7 +36,8 @@ Container splitBinary(std::span<const std::byte> bytes, const std::string& file)
     }
     const std::size_t length = word(bytes, 8);
     if (length > bytes.size()) {
-        throw InputError(fmt::format("{}: truncated: its header says {} bytes, it has {}", file, length, bytes.size()));
+        throw InputError(
+            fmt::format("{}: truncated: its header says {} bytes, it has {}", file, length, bytes.size()));
     }
     Container container;
     bool first = true;
@@ -48,7 +49,8 @@ Container splitBinary(std::span<const std::byte> bytes, const std::string& file)
         const std::uint32_t type = word(bytes, offset + 4);
         offset += kChunkHeaderBytes;
         if (size > length - offset) {
-            throw InputError(fmt::format("{}: a GLB chunk of {} bytes does not fit into the file", file, size));
+            throw InputError(
+                fmt::format("{}: a GLB chunk of {} bytes does not fit into the file", file, size));
         }
         if (first != (type == kJsonChunk)) {
             throw InputError(fmt::format("{}: the first GLB chunk, and only that, must be JSON", file));

@@ -39,7 +39,8 @@ public:
     auto readChecked(int accessor, const std::string& name, std::size_t count, Read reader) const {
         auto values = reader(asset_, accessor, fmt::format("{}: {}", object_, name));
         if (values.size() != count) {
-            asset_.fail(object_, fmt::format("{} has {} elements, POSITION has {}", name, values.size(), count));
+            asset_.fail(object_,
+                        fmt::format("{} has {} elements, POSITION has {}", name, values.size(), count));
         }
         return values;
     }
@@ -50,9 +51,11 @@ private:
     const std::string& object_;
 };
 
-void addMorphTargets(const AttributeReader& attributes, const tinygltf::Primitive& primitive, const std::vector<double>& weights, Mesh& mesh) {
+void addMorphTargets(const AttributeReader& attributes, const tinygltf::Primitive& primitive,
+                     const std::vector<double>& weights, Mesh& mesh) {
     const std::size_t count = mesh.positions.size();
-    const auto add = [&](const std::map<std::string, int>& target, const char* name, float weight, auto& values) {
+    const auto add = [&](const std::map<std::string, int>& target, const char* name, float weight,
+                         auto& values) {
         const auto it = target.find(name);
         if (it == target.end() || values.empty()) {
             return;
@@ -119,7 +122,8 @@ void setUvs(Mesh& mesh, std::size_t set, std::vector<vec2> uvs) {
     mesh.uv_sets[set] = std::move(uvs);
 }
 
-/// Triangles of the list, strip or fan (glTF 2.0, 3.7.2.1). Those that name a vertex twice have no area and are left out.
+/// Triangles of the list, strip or fan (glTF 2.0, 3.7.2.1). Those that name a vertex twice have no area and
+/// are left out.
 std::vector<uvec3> trianglesOf(const std::vector<std::uint32_t>& indices, int mode) {
     std::vector<uvec3> triangles;
     const auto add = [&triangles](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
@@ -140,24 +144,29 @@ std::vector<uvec3> trianglesOf(const std::vector<std::uint32_t>& indices, int mo
     return triangles;
 }
 
-std::vector<std::uint32_t> readTriangleIndices(Asset& asset, const tinygltf::Primitive& primitive, std::size_t vertices, const std::string& object) {
+std::vector<std::uint32_t> readTriangleIndices(Asset& asset, const tinygltf::Primitive& primitive,
+                                               std::size_t vertices, const std::string& object) {
     std::vector<std::uint32_t> indices(primitive.indices < 0 ? vertices : 0);
     if (primitive.indices < 0) {
         std::iota(indices.begin(), indices.end(), 0U);
     } else {
         indices = readIndices(asset, primitive.indices, fmt::format("{}: indices", object));
-        const auto beyond = std::find_if(indices.begin(), indices.end(), [vertices](std::uint32_t i) { return i >= vertices; });
+        const auto beyond = std::find_if(indices.begin(), indices.end(),
+                                         [vertices](std::uint32_t i) { return i >= vertices; });
         if (beyond != indices.end()) {
-            asset.fail(object, fmt::format("index {} at position {} names no vertex, there are {}", *beyond, beyond - indices.begin(), vertices));
+            asset.fail(object, fmt::format("index {} at position {} names no vertex, there are {}", *beyond,
+                                           beyond - indices.begin(), vertices));
         }
     }
     if (primitive.mode == TINYGLTF_MODE_TRIANGLES && indices.size() % 3 != 0) {
-        asset.warn(fmt::format("{}: {} indices make no whole triangles; the last ones are left out", object, indices.size()));
+        asset.warn(fmt::format("{}: {} indices make no whole triangles; the last ones are left out", object,
+                               indices.size()));
     }
     return indices;
 }
 
-void readAttributes(Asset& asset, const AttributeReader& attributes, const std::string& object, Geometry& geometry) {
+void readAttributes(Asset& asset, const AttributeReader& attributes, const std::string& object,
+                    Geometry& geometry) {
     Mesh& mesh = geometry.mesh;
     const std::size_t count = mesh.positions.size();
     mesh.normals = attributes.read("NORMAL", count, readVec3);
@@ -172,7 +181,9 @@ void readAttributes(Asset& asset, const AttributeReader& attributes, const std::
             setUvs(mesh, static_cast<std::size_t>(set), std::move(uvs));
         }
     }
-    for (int set = 0; attributes.has(fmt::format("JOINTS_{}", set)) && attributes.has(fmt::format("WEIGHTS_{}", set)); ++set) {
+    for (int set = 0;
+         attributes.has(fmt::format("JOINTS_{}", set)) && attributes.has(fmt::format("WEIGHTS_{}", set));
+         ++set) {
         geometry.joints.push_back(attributes.read(fmt::format("JOINTS_{}", set), count, readJoints));
         geometry.weights.push_back(attributes.read(fmt::format("WEIGHTS_{}", set), count, readVec4));
     }
@@ -180,10 +191,11 @@ void readAttributes(Asset& asset, const AttributeReader& attributes, const std::
 
 }  // namespace
 
-std::optional<Geometry> readGeometry(Asset& asset, const tinygltf::Primitive& primitive, const std::vector<double>& morph_weights,
-                                     const std::string& object) {
+std::optional<Geometry> readGeometry(Asset& asset, const tinygltf::Primitive& primitive,
+                                     const std::vector<double>& morph_weights, const std::string& object) {
     if (primitive.mode >= TINYGLTF_MODE_POINTS && primitive.mode <= TINYGLTF_MODE_LINE_STRIP) {
-        asset.skip(fmt::format("{}: {} are not drawn", object, primitive.mode == TINYGLTF_MODE_POINTS ? "points" : "lines"));
+        asset.skip(fmt::format("{}: {} are not drawn", object,
+                               primitive.mode == TINYGLTF_MODE_POINTS ? "points" : "lines"));
         return std::nullopt;
     }
     if (primitive.mode < TINYGLTF_MODE_POINTS || primitive.mode > TINYGLTF_MODE_TRIANGLE_FAN) {
@@ -196,11 +208,13 @@ std::optional<Geometry> readGeometry(Asset& asset, const tinygltf::Primitive& pr
     }
     Geometry geometry;
     Mesh& mesh = geometry.mesh;
-    mesh.positions = readVec3(asset, primitive.attributes.at("POSITION"), fmt::format("{}: POSITION", object));
+    mesh.positions =
+        readVec3(asset, primitive.attributes.at("POSITION"), fmt::format("{}: POSITION", object));
     readAttributes(asset, attributes, object, geometry);
     addMorphTargets(attributes, primitive, morph_weights, mesh);
     normalizeFrames(mesh);
-    mesh.triangles = trianglesOf(readTriangleIndices(asset, primitive, mesh.positions.size(), object), primitive.mode);
+    mesh.triangles =
+        trianglesOf(readTriangleIndices(asset, primitive, mesh.positions.size(), object), primitive.mode);
     if (mesh.triangles.empty()) {
         asset.skip(fmt::format("{}: it has no triangles", object));
         return std::nullopt;
@@ -208,7 +222,8 @@ std::optional<Geometry> readGeometry(Asset& asset, const tinygltf::Primitive& pr
     return geometry;
 }
 
-void applySkin(const Asset& asset, Geometry& geometry, const std::vector<glm::dmat4>& world_from_bind, const std::string& object) {
+void applySkin(const Asset& asset, Geometry& geometry, const std::vector<glm::dmat4>& world_from_bind,
+               const std::string& object) {
     Mesh& mesh = geometry.mesh;
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
         glm::dmat4 blend(0.0);
@@ -221,7 +236,8 @@ void applySkin(const Asset& asset, Geometry& geometry, const std::vector<glm::dm
                     continue;
                 }
                 if (joint >= world_from_bind.size()) {
-                    asset.fail(object, fmt::format("vertex {} names joint {}, the skin has {}", i, joint, world_from_bind.size()));
+                    asset.fail(object, fmt::format("vertex {} names joint {}, the skin has {}", i, joint,
+                                                   world_from_bind.size()));
                 }
                 blend += weight * world_from_bind[joint];
                 sum += weight;
@@ -233,34 +249,41 @@ void applySkin(const Asset& asset, Geometry& geometry, const std::vector<glm::dm
         const glm::dmat3 linear(blend);
         if (!mesh.normals.empty()) {
             // The cofactor matrix: det * inverse transpose, which exists for every matrix.
-            const glm::dmat3 cofactor(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]), glm::cross(linear[0], linear[1]));
+            const glm::dmat3 cofactor(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
+                                      glm::cross(linear[0], linear[1]));
             const double side = glm::determinant(linear) < 0.0 ? -1.0 : 1.0;
             mesh.normals[i] = unitOrZero(vec3(side * (cofactor * glm::dvec3(mesh.normals[i]))));
         }
         if (!mesh.tangents.empty()) {
-            mesh.tangents[i] = vec4(unitOrZero(vec3(linear * glm::dvec3(vec3(mesh.tangents[i])))), mesh.tangents[i].w);
+            mesh.tangents[i] =
+                vec4(unitOrZero(vec3(linear * glm::dvec3(vec3(mesh.tangents[i])))), mesh.tangents[i].w);
         }
     }
 }
 
 void removeUnplaceable(Asset& asset, Mesh& mesh, const std::string& object) {
     const std::size_t removed = std::erase_if(mesh.triangles, [&mesh](const uvec3& t) {
-        return !isPlace(mesh.positions[t.x]) || !isPlace(mesh.positions[t.y]) || !isPlace(mesh.positions[t.z]);
+        return !isPlace(mesh.positions[t.x]) || !isPlace(mesh.positions[t.y]) ||
+               !isPlace(mesh.positions[t.z]);
     });
     if (removed > 0) {
-        asset.warn(fmt::format("{}: {} triangles with a vertex that is not finite or too far out are left out", object, removed));
+        asset.warn(
+            fmt::format("{}: {} triangles with a vertex that is not finite or too far out are left out",
+                        object, removed));
     }
 }
 
 void complete(Asset& asset, Mesh& mesh, const Material& material, const std::string& object) {
-    for (const TextureSlot* slot : {&material.base_color_texture, &material.metallic_roughness_texture, &material.normal_texture,
-                                    &material.emissive_texture, &material.specular_texture, &material.specular_color_texture}) {
+    for (const TextureSlot* slot :
+         {&material.base_color_texture, &material.metallic_roughness_texture, &material.normal_texture,
+          &material.emissive_texture, &material.specular_texture, &material.specular_color_texture}) {
         if (!slot->present()) {
             continue;
         }
         if (mesh.uv_sets.size() <= slot->uv_set || mesh.uv_sets[slot->uv_set].empty()) {
             setUvs(mesh, slot->uv_set, std::vector<vec2>(mesh.positions.size(), vec2(0.0F)));
-            asset.warn(fmt::format("{}: material '{}' reads TEXCOORD_{}, which is not there and taken as 0", object, material.name, slot->uv_set));
+            asset.warn(fmt::format("{}: material '{}' reads TEXCOORD_{}, which is not there and taken as 0",
+                                   object, material.name, slot->uv_set));
         }
     }
     if (material.normal_texture.present() && material.normal_scale != 0.0F && mesh.tangents.empty()) {

@@ -24,9 +24,9 @@ std::uint32_t TextureLoader::load(int image, const std::string& object) {
 
     Texture texture;
     constexpr std::size_t kShownUri = 80;
-    texture.name = !source.name.empty()                  ? source.name
+    texture.name = !source.name.empty()                                    ? source.name
                    : source.uri.empty() || source.uri.starts_with("data:") ? name
-                                                         : oneLine(source.uri, kShownUri);
+                                                                           : oneLine(source.uri, kShownUri);
     texture.width = static_cast<std::uint32_t>(decoded.width);
     texture.height = static_cast<std::uint32_t>(decoded.height);
     texture.bits = static_cast<std::uint32_t>(decoded.bits);

@@ -9,7 +9,7 @@
 namespace licht::gltf {
 namespace {
 
-constexpr double kUnlimited = std::numeric_limits<float>::max();
+constexpr double kUnlimited = static_cast<double>(std::numeric_limits<float>::max());
 
 double number(const tinygltf::Value& object, const std::string& key, double fallback) {
     return object.Has(key) && object.Get(key).IsNumber() ? object.Get(key).GetNumberAsDouble() : fallback;
@@ -66,12 +66,14 @@ std::uint32_t MaterialLoader::load(int material, const std::string& object) {
     return index;
 }
 
-float MaterialLoader::clamped(double value, double lower, double upper, const std::string& object, std::string_view what) {
+float MaterialLoader::clamped(double value, double lower, double upper, const std::string& object,
+                              std::string_view what) {
     if (value >= lower && value <= upper) {
         return static_cast<float>(value);
     }
     const double inside = std::isnan(value) ? lower : std::clamp(value, lower, upper);
-    asset_.warn(fmt::format("{}: {} {} is outside of its range and taken as {}", object, what, value, inside));
+    asset_.warn(
+        fmt::format("{}: {} {} is outside of its range and taken as {}", object, what, value, inside));
     return static_cast<float>(inside);
 }
 
@@ -79,14 +81,17 @@ Material MaterialLoader::convert(const tinygltf::Material& source, const std::st
     Material material;
     const tinygltf::PbrMetallicRoughness& pbr = source.pbrMetallicRoughness;
     for (int i = 0; i < 4; ++i) {
-        material.base_color[i] = clamped(pbr.baseColorFactor.at(static_cast<std::size_t>(i)), 0, 1, object, "baseColorFactor");
+        material.base_color[i] =
+            clamped(pbr.baseColorFactor.at(static_cast<std::size_t>(i)), 0, 1, object, "baseColorFactor");
     }
     for (int i = 0; i < 3; ++i) {
-        material.emission[i] = clamped(source.emissiveFactor.at(static_cast<std::size_t>(i)), 0, kUnlimited, object, "emissiveFactor");
+        material.emission[i] = clamped(source.emissiveFactor.at(static_cast<std::size_t>(i)), 0, kUnlimited,
+                                       object, "emissiveFactor");
     }
     material.metallic = clamped(pbr.metallicFactor, 0, 1, object, "metallicFactor");
     material.roughness = clamped(pbr.roughnessFactor, 0, 1, object, "roughnessFactor");
-    material.normal_scale = clamped(source.normalTexture.scale, -kUnlimited, kUnlimited, object, "normalTexture.scale");
+    material.normal_scale =
+        clamped(source.normalTexture.scale, -kUnlimited, kUnlimited, object, "normalTexture.scale");
     material.alpha_cutoff = clamped(source.alphaCutoff, 0, kUnlimited, object, "alphaCutoff");
     material.double_sided = source.doubleSided;
     if (source.alphaMode == "MASK") {
@@ -94,9 +99,12 @@ Material MaterialLoader::convert(const tinygltf::Material& source, const std::st
     } else if (source.alphaMode == "BLEND") {
         material.alpha_mode = AlphaMode::blend;
     } else if (source.alphaMode != "OPAQUE") {
-        asset_.warn(fmt::format("{}: alpha mode '{}' is unknown and taken as OPAQUE", object, oneLine(source.alphaMode)));
+        asset_.warn(fmt::format("{}: alpha mode '{}' is unknown and taken as OPAQUE", object,
+                                oneLine(source.alphaMode)));
     }
-    const auto textured = [&](const auto& info) { return slot(info.index, info.texCoord, info.extensions, object); };
+    const auto textured = [&](const auto& info) {
+        return slot(info.index, info.texCoord, info.extensions, object);
+    };
     material.base_color_texture = textured(pbr.baseColorTexture);
     material.metallic_roughness_texture = textured(pbr.metallicRoughnessTexture);
     material.normal_texture = textured(source.normalTexture);
@@ -105,10 +113,12 @@ Material MaterialLoader::convert(const tinygltf::Material& source, const std::st
     return material;
 }
 
-void MaterialLoader::readExtensions(const tinygltf::Material& source, const std::string& object, Material& material) {
+void MaterialLoader::readExtensions(const tinygltf::Material& source, const std::string& object,
+                                    Material& material) {
     material.unlit = find(source.extensions, "KHR_materials_unlit") != nullptr;
     if (const auto* strength = find(source.extensions, "KHR_materials_emissive_strength")) {
-        material.emission *= clamped(number(*strength, "emissiveStrength", 1.0), 0, kUnlimited, object, "emissiveStrength");
+        material.emission *=
+            clamped(number(*strength, "emissiveStrength", 1.0), 0, kUnlimited, object, "emissiveStrength");
         material.emission = glm::min(material.emission, vec3(std::numeric_limits<float>::max()));
     }
     if (const auto* ior = find(source.extensions, "KHR_materials_ior")) {
@@ -119,11 +129,14 @@ void MaterialLoader::readExtensions(const tinygltf::Material& source, const std:
         material.specular = clamped(number(*specular, "specularFactor", 1.0), 0, 1, object, "specularFactor");
         const auto color = numbers<3>(*specular, "specularColorFactor", 1.0);
         for (int i = 0; i < 3; ++i) {
-            material.specular_color[i] = clamped(color.at(static_cast<std::size_t>(i)), 0, kUnlimited, object, "specularColorFactor");
+            material.specular_color[i] =
+                clamped(color.at(static_cast<std::size_t>(i)), 0, kUnlimited, object, "specularColorFactor");
         }
-        material.specular_texture = slot(specular->Has("specularTexture") ? specular->Get("specularTexture") : tinygltf::Value(), object);
-        material.specular_color_texture =
-            slot(specular->Has("specularColorTexture") ? specular->Get("specularColorTexture") : tinygltf::Value(), object);
+        material.specular_texture = slot(
+            specular->Has("specularTexture") ? specular->Get("specularTexture") : tinygltf::Value(), object);
+        material.specular_color_texture = slot(
+            specular->Has("specularColorTexture") ? specular->Get("specularColorTexture") : tinygltf::Value(),
+            object);
     }
 }
 
@@ -141,18 +154,21 @@ TextureSlot MaterialLoader::slot(const tinygltf::Value& info, const std::string&
     return slot(integer("index", -1), integer("texCoord", 0), extensions, object);
 }
 
-TextureSlot MaterialLoader::slot(int texture, int uv_set, const tinygltf::ExtensionMap& extensions, const std::string& object) {
+TextureSlot MaterialLoader::slot(int texture, int uv_set, const tinygltf::ExtensionMap& extensions,
+                                 const std::string& object) {
     TextureSlot result;
     if (texture == -1) {
         return result;
     }
     const tinygltf::Texture& source = at(asset_, asset_.model.textures, texture, object, "texture");
     if (source.source == -1) {
-        asset_.warn(fmt::format("{}: texture {} has no image in a format that is supported; it is left out", object, texture));
+        asset_.warn(fmt::format("{}: texture {} has no image in a format that is supported; it is left out",
+                                object, texture));
         return result;
     }
     if (const auto* transform = find(extensions, "KHR_texture_transform")) {
-        // The extension's document: translation * rotation * scale. Its rotation is counter-clockwise as the picture is seen, with v downward.
+        // The extension's document: translation * rotation * scale. Its rotation is counter-clockwise as the
+        // picture is seen, with v downward.
         const auto offset = numbers<2>(*transform, "offset", 0.0);
         const auto scale = numbers<2>(*transform, "scale", 1.0);
         const double angle = number(*transform, "rotation", 0.0);
@@ -167,12 +183,14 @@ TextureSlot MaterialLoader::slot(int texture, int uv_set, const tinygltf::Extens
         }
     }
     if (uv_set < 0 || uv_set >= kMaxUvSets) {
-        asset_.warn(fmt::format("{}: texture coordinate set {} is not supported; its texture is left out", object, uv_set));
+        asset_.warn(fmt::format("{}: texture coordinate set {} is not supported; its texture is left out",
+                                object, uv_set));
         return result;
     }
     result.uv_set = static_cast<std::uint32_t>(uv_set);
     if (source.sampler != -1) {
-        const tinygltf::Sampler& sampler = at(asset_, asset_.model.samplers, source.sampler, object, "sampler");
+        const tinygltf::Sampler& sampler =
+            at(asset_, asset_.model.samplers, source.sampler, object, "sampler");
         result.wrap_u = wrapOf(sampler.wrapS);
         result.wrap_v = wrapOf(sampler.wrapT);
         result.linear = sampler.magFilter != TINYGLTF_TEXTURE_FILTER_NEAREST;

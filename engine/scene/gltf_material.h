@@ -34,7 +34,8 @@ public:
 private:
     Material convert(const tinygltf::Material& source, const std::string& object);
     void readExtensions(const tinygltf::Material& source, const std::string& object, Material& material);
-    TextureSlot slot(int texture, int uv_set, const tinygltf::ExtensionMap& extensions, const std::string& object);
+    TextureSlot slot(int texture, int uv_set, const tinygltf::ExtensionMap& extensions,
+                     const std::string& object);
     TextureSlot slot(const tinygltf::Value& info, const std::string& object);
     float clamped(double value, double lower, double upper, const std::string& object, std::string_view what);
 

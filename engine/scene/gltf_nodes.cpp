@@ -7,11 +7,15 @@
 namespace licht::gltf {
 namespace {
 
-std::string nameOf(const Asset& asset, std::size_t node) { return objectName("node", node, asset.model.nodes[node].name); }
+std::string nameOf(const Asset& asset, std::size_t node) {
+    return objectName("node", node, asset.model.nodes[node].name);
+}
 
-void checkLength(const Asset& asset, std::size_t node, const std::vector<double>& values, std::size_t wanted, std::string_view what) {
+void checkLength(const Asset& asset, std::size_t node, const std::vector<double>& values, std::size_t wanted,
+                 std::string_view what) {
     if (!values.empty() && values.size() != wanted) {
-        asset.fail(nameOf(asset, node), fmt::format("its {} has {} numbers, {} are wanted", what, values.size(), wanted));
+        asset.fail(nameOf(asset, node),
+                   fmt::format("its {} has {} numbers, {} are wanted", what, values.size(), wanted));
     }
 }
 
@@ -37,7 +41,8 @@ glm::dmat4 localTransform(Asset& asset, std::size_t index) {
         if (length > 0.0 && std::isfinite(length)) {
             local = glm::mat4_cast(q / length);
         } else {
-            asset.warn(fmt::format("{}: its rotation is no quaternion with a direction and taken as none", nameOf(asset, index)));
+            asset.warn(fmt::format("{}: its rotation is no quaternion with a direction and taken as none",
+                                   nameOf(asset, index)));
         }
     }
     if (!node.scale.empty()) {
@@ -60,7 +65,8 @@ std::vector<int> parents(const Asset& asset) {
             at(asset, nodes, child, nameOf(asset, i), "child node");
             int& known = parent[static_cast<std::size_t>(child)];
             if (known != -1) {
-                asset.fail(nameOf(asset, static_cast<std::size_t>(child)), fmt::format("it has two parents, nodes {} and {}", known, i));
+                asset.fail(nameOf(asset, static_cast<std::size_t>(child)),
+                           fmt::format("it has two parents, nodes {} and {}", known, i));
             }
             known = static_cast<int>(i);
         }
@@ -68,7 +74,8 @@ std::vector<int> parents(const Asset& asset) {
     return parent;
 }
 
-/// Everything below the given roots, parents before children. Every node has one parent at most, so none comes twice.
+/// Everything below the given roots, parents before children. Every node has one parent at most, so none
+/// comes twice.
 std::vector<int> below(const Asset& asset, const std::vector<int>& roots) {
     std::vector<int> order(roots);
     for (std::size_t i = 0; i < order.size(); ++i) {
@@ -78,14 +85,16 @@ std::vector<int> below(const Asset& asset, const std::vector<int>& roots) {
     return order;
 }
 
-std::vector<int> rootsOf(const Asset& asset, std::optional<std::uint32_t> scene_index, const std::vector<int>& parent,
-                         const std::vector<int>& all_roots) {
+std::vector<int> rootsOf(const Asset& asset, std::optional<std::uint32_t> scene_index,
+                         const std::vector<int>& parent, const std::vector<int>& all_roots) {
     const std::vector<tinygltf::Scene>& scenes = asset.model.scenes;
     if (scenes.empty() && !scene_index) {
         return all_roots;
     }
-    const int wanted = scene_index ? static_cast<int>(std::min(*scene_index, std::uint32_t{INT32_MAX})) : std::max(asset.model.defaultScene, 0);
-    const tinygltf::Scene& scene = at(asset, scenes, wanted, scene_index ? "the scene asked for" : "the default scene", "scene");
+    const int wanted = scene_index ? static_cast<int>(std::min(*scene_index, std::uint32_t{INT32_MAX}))
+                                   : std::max(asset.model.defaultScene, 0);
+    const tinygltf::Scene& scene =
+        at(asset, scenes, wanted, scene_index ? "the scene asked for" : "the default scene", "scene");
     const std::string name = objectName("scene", static_cast<std::size_t>(wanted), scene.name);
     std::vector<bool> seen(asset.model.nodes.size());
     for (const int node : scene.nodes) {
@@ -119,7 +128,8 @@ NodeTree flattenNodes(Asset& asset, std::optional<std::uint32_t> scene_index) {
         for (const int node : order) {
             reached[static_cast<std::size_t>(node)] = true;
         }
-        const auto lost = static_cast<std::size_t>(std::find(reached.begin(), reached.end(), false) - reached.begin());
+        const auto lost =
+            static_cast<std::size_t>(std::find(reached.begin(), reached.end(), false) - reached.begin());
         asset.fail(nameOf(asset, lost), "it belongs to a cycle of nodes");
     }
     NodeTree tree;
@@ -127,7 +137,8 @@ NodeTree flattenNodes(Asset& asset, std::optional<std::uint32_t> scene_index) {
     for (const int node : order) {
         const auto i = static_cast<std::size_t>(node);
         const glm::dmat4 local = localTransform(asset, i);
-        tree.world_from_node[i] = parent[i] == -1 ? local : tree.world_from_node[static_cast<std::size_t>(parent[i])] * local;
+        tree.world_from_node[i] =
+            parent[i] == -1 ? local : tree.world_from_node[static_cast<std::size_t>(parent[i])] * local;
     }
     tree.visible = below(asset, rootsOf(asset, scene_index, parent, roots));
     return tree;

@@ -14,8 +14,8 @@ struct NodeTree {
     std::vector<int> visible;
 };
 
-/// Throws InputError naming the node: a child that is not there, two parents, a cycle, a transform of the wrong length; or a scene that is
-/// not there. Without any scene every node is visible.
+/// Throws InputError naming the node: a child that is not there, two parents, a cycle, a transform of the
+/// wrong length; or a scene that is not there. Without any scene every node is visible.
 NodeTree flattenNodes(Asset& asset, std::optional<std::uint32_t> scene_index);
 
 }  // namespace licht::gltf

@@ -20,20 +20,24 @@ int hexValue(char c) {
     return -1;
 }
 
-bool isAlphanumeric(char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+bool isAlphanumeric(char c) {
+    return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+}
 
 bool isBase64(std::string_view text) {
     const std::size_t padding = text.ends_with("==") ? 2 : text.ends_with('=') ? 1 : 0;
     text.remove_suffix(padding);
     return (padding == 0 || (text.size() + padding) % 4 == 0) && text.size() % 4 != 1 &&
-           std::all_of(text.begin(), text.end(), [](char c) { return isAlphanumeric(c) || c == '+' || c == '/'; });
+           std::all_of(text.begin(), text.end(),
+                       [](char c) { return isAlphanumeric(c) || c == '+' || c == '/'; });
 }
 
 /// RFC 3986: a letter, then letters, digits, '+', '-', '.', up to the first ':'.
 bool hasScheme(std::string_view uri) {
     const std::size_t colon = uri.find(':');
     const std::size_t slash = uri.find('/');
-    return colon != std::string_view::npos && colon > 0 && (slash == std::string_view::npos || colon < slash) &&
+    return colon != std::string_view::npos && colon > 0 &&
+           (slash == std::string_view::npos || colon < slash) &&
            std::all_of(uri.begin(), uri.begin() + static_cast<std::ptrdiff_t>(colon),
                        [](char c) { return isAlphanumeric(c) || c == '+' || c == '-' || c == '.'; });
 }
@@ -65,7 +69,8 @@ std::string percentDecode(std::string_view text) {
 
 std::string oneLine(std::string_view text, std::size_t limit) {
     std::string line(text.substr(0, limit));
-    std::replace_if(line.begin(), line.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20U; }, ' ');
+    std::replace_if(
+        line.begin(), line.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20U; }, ' ');
     line.erase(line.find_last_not_of(' ') + 1);
     return text.size() > limit ? line + "..." : line;
 }
@@ -81,7 +86,8 @@ AssetFolder::AssetFolder(const std::filesystem::path& scene_file) : file_(scene_
 
 std::vector<std::byte> AssetFolder::read(std::string_view uri, const std::string& object) {
     try {
-        std::vector<std::byte> bytes = uri.starts_with("data:") ? readData(uri) : readFile(resolve(uri), bytes_left_);
+        std::vector<std::byte> bytes =
+            uri.starts_with("data:") ? readData(uri) : readFile(resolve(uri), bytes_left_);
         if (bytes.size() > bytes_left_) {
             throw InputError("the asset is larger than 4 GiB in total");
         }
@@ -89,7 +95,8 @@ std::vector<std::byte> AssetFolder::read(std::string_view uri, const std::string
         return bytes;
     } catch (const std::exception& e) {
         constexpr std::size_t kShownUri = 80;
-        throw InputError(fmt::format("{}: {}: uri '{}': {}", file_, object, oneLine(uri, kShownUri), oneLine(e.what())));
+        throw InputError(
+            fmt::format("{}: {}: uri '{}': {}", file_, object, oneLine(uri, kShownUri), oneLine(e.what())));
     }
 }
 
@@ -106,11 +113,14 @@ std::vector<std::byte> AssetFolder::readData(std::string_view uri) const {
     // The decoder knows few media types; here the type does not matter.
     std::string type;
     std::vector<unsigned char> decoded;
-    if (!payload.empty() && !tinygltf::DecodeDataURI(&decoded, type, std::string("data:application/octet-stream;base64,").append(payload), 0, false)) {
+    if (!payload.empty() &&
+        !tinygltf::DecodeDataURI(
+            &decoded, type, std::string("data:application/octet-stream;base64,").append(payload), 0, false)) {
         throw InputError("the base64 text is damaged");
     }
     std::vector<std::byte> bytes(decoded.size());
-    std::transform(decoded.begin(), decoded.end(), bytes.begin(), [](unsigned char c) { return std::byte{c}; });
+    std::transform(decoded.begin(), decoded.end(), bytes.begin(),
+                   [](unsigned char c) { return std::byte{c}; });
     return bytes;
 }
 
@@ -129,7 +139,8 @@ std::filesystem::path AssetFolder::resolve(std::string_view uri) const {
     if (relative.is_absolute()) {
         throw InputError("an absolute path is not read");
     }
-    // By words first, so that a path that leaves the folder is refused even where nothing exists, then with symbolic links resolved.
+    // By words first, so that a path that leaves the folder is refused even where nothing exists, then with
+    // symbolic links resolved.
     const std::filesystem::path normal = relative.lexically_normal();
     const std::filesystem::path real = std::filesystem::weakly_canonical(folder_ / normal);
     if ((!normal.empty() && *normal.begin() == "..") || !isInside(real, folder_)) {

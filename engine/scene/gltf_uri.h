@@ -16,8 +16,9 @@ public:
     /// Throws InputError when the folder is not there.
     explicit AssetFolder(const std::filesystem::path& scene_file);
 
-    /// The bytes behind a URI. Throws InputError "<file>: <object>: uri '<uri>': <reason>": a scheme, an absolute path, a backslash, a NUL,
-    /// a way out of the folder (by `..` or by a symbolic link), no regular file, bad base64, or more than kMaxAssetBytes in total.
+    /// The bytes behind a URI. Throws InputError "<file>: <object>: uri '<uri>': <reason>": a scheme, an
+    /// absolute path, a backslash, a NUL, a way out of the folder (by `..` or by a symbolic link), no regular
+    /// file, bad base64, or more than kMaxAssetBytes in total.
     std::vector<std::byte> read(std::string_view uri, const std::string& object);
 
     /// What all files and data URIs of one asset may weigh together.
@@ -35,7 +36,8 @@ private:
 /// RFC 3986 percent-decoding. Throws std::invalid_argument on a '%' without two hexadecimal digits.
 std::string percentDecode(std::string_view text);
 
-/// At most `limit` bytes of a text, on one line: control characters become spaces, and what is cut is marked by "...".
+/// At most `limit` bytes of a text, on one line: control characters become spaces, and what is cut is marked
+/// by "...".
 std::string oneLine(std::string_view text, std::size_t limit = 200);
 
 }  // namespace licht::gltf

@@ -11,9 +11,12 @@ namespace {
 using glm::dmat4;
 using glm::dvec3;
 
-bool isPlace(const dvec3& v) { return licht::isPlace(vec3(v)); }
+bool isPlace(const dvec3& v) {
+    return licht::isPlace(vec3(v));
+}
 
-/// Rotation and translation of a transform: back axis first, then up; scale and shear are dropped. nullopt where an axis has no length.
+/// Rotation and translation of a transform: back axis first, then up; scale and shear are dropped. nullopt
+/// where an axis has no length.
 std::optional<mat4> rigid(const dmat4& m) {
     const dvec3 right = glm::cross(dvec3(m[1]), dvec3(m[2]));
     if (!isPlace(dvec3(m[3])) || !(glm::length(right) > 0.0) || !std::isfinite(glm::length(right))) {
@@ -41,7 +44,8 @@ vec3 intensityOf(Asset& asset, const tinygltf::Light& light, const std::string& 
     for (int c = 0; c < 3; ++c) {
         const double factor = light.color.size() == 3 ? light.color[static_cast<std::size_t>(c)] : 1.0;
         const double wanted = factor * light.intensity;
-        const double possible = std::clamp(std::isnan(wanted) ? 0.0 : wanted, 0.0, static_cast<double>(std::numeric_limits<float>::max()));
+        const double possible = std::clamp(std::isnan(wanted) ? 0.0 : wanted, 0.0,
+                                           static_cast<double>(std::numeric_limits<float>::max()));
         changed = changed || possible != wanted;
         result[c] = static_cast<float>(possible);
     }
@@ -70,7 +74,8 @@ std::optional<Camera> readCamera(Asset& asset, int node, const dmat4& world_from
         const double half_height = std::abs(source.orthographic.ymag);
         camera.kind = Camera::Kind::orthographic;
         camera.y_extent = finiteOr(half_height, 0.0F);
-        camera.aspect = half_height > 0.0 ? finiteOr(std::abs(source.orthographic.xmag) / half_height, 0.0F) : 0.0F;
+        camera.aspect =
+            half_height > 0.0 ? finiteOr(std::abs(source.orthographic.xmag) / half_height, 0.0F) : 0.0F;
         camera.z_near = std::max(0.0F, finiteOr(source.orthographic.znear, 0.0F));
         if (!(camera.y_extent > 0.0F)) {
             asset.skip(fmt::format("{}: its ymag is zero or not finite", name));
@@ -81,7 +86,8 @@ std::optional<Camera> readCamera(Asset& asset, int node, const dmat4& world_from
         camera.aspect = std::max(0.0F, finiteOr(source.perspective.aspectRatio, 0.0F));
         camera.z_near = std::max(0.0F, finiteOr(source.perspective.znear, 0.0F));
         if (!(camera.y_fov > 0.0F && camera.y_fov < kPi)) {
-            asset.skip(fmt::format("{}: its vertical angle {} lies outside of (0, pi)", name, source.perspective.yfov));
+            asset.skip(fmt::format("{}: its vertical angle {} lies outside of (0, pi)", name,
+                                   source.perspective.yfov));
             return std::nullopt;
         }
     }

@@ -34,14 +34,16 @@ Bounds sceneBounds(const Scene& scene) {
 
 namespace {
 
-constexpr float kFramingFov = 0.8F;       // radians: the default of Camera
-constexpr float kFramingFill = 0.9F;      // share of the half picture that the box may reach: 10 % margin
-constexpr float kNearShare = 1e-3F;       // of the distance to the centre
-constexpr float kEmptyDistance = 3.0F;    // metres, where nothing tells a size
-constexpr float kResolvedShare = 1e-4F;   // of the coordinates: nearer, an eye and what it sees round to the same point
+constexpr float kFramingFov = 0.8F;     // radians: the default of Camera
+constexpr float kFramingFill = 0.9F;    // share of the half picture that the box may reach: 10 % margin
+constexpr float kNearShare = 1e-3F;     // of the distance to the centre
+constexpr float kEmptyDistance = 3.0F;  // metres, where nothing tells a size
+constexpr float kResolvedShare =
+    1e-4F;  // of the coordinates: nearer, an eye and what it sees round to the same point
 const vec3 kTowardsEye{0.45F, 0.35F, 1};  // front, a bit to the right and above
 
-/// Distance from the centre at which all corners of the box are inside the picture's fill, and the nearest corner's depth there.
+/// Distance from the centre at which all corners of the box are inside the picture's fill, and the nearest
+/// corner's depth there.
 struct Framing {
     float distance = 0.0F;
     float nearest = 0.0F;
@@ -55,7 +57,8 @@ Framing frameBox(const Bounds& bounds, const mat3& view_axes, float tan_x, float
         const vec3 sign((corner & 1) != 0 ? 1.0F : -1.0F, (corner & 2) != 0 ? 1.0F : -1.0F,
                         (corner & 4) != 0 ? 1.0F : -1.0F);
         const vec3 p = glm::transpose(view_axes) * (sign * half);
-        const float depth = std::max(std::abs(p.x) / (kFramingFill * tan_x), std::abs(p.y) / (kFramingFill * tan_y));
+        const float depth =
+            std::max(std::abs(p.x) / (kFramingFill * tan_x), std::abs(p.y) / (kFramingFill * tan_y));
         framing.distance = std::max(framing.distance, p.z + depth);
         highest = std::max(highest, p.z);
     }

@@ -1,9 +1,10 @@
 #pragma once
 // A scene as plain values, independent of any file format and any device.
 //
-// Units are glTF's: metres; luminance-like quantities (emission, skies) in cd/m^2; point and spot lights in candela; directional lights
-// in lux. They meet without a factor: a light of I candela at distance r gives I cos(theta) / r^2 lux, and a Lambertian surface of albedo rho
-// under E lux has rho E / pi cd/m^2. Colours are linear Rec. 709.
+// Units are glTF's: metres; luminance-like quantities (emission, skies) in cd/m^2; point and spot lights in
+// candela; directional lights in lux. They meet without a factor: a light of I candela at distance r gives I
+// cos(theta) / r^2 lux, and a Lambertian surface of albedo rho under E lux has rho E / pi cd/m^2. Colours are
+// linear Rec. 709.
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -16,7 +17,8 @@ namespace licht {
 
 inline constexpr std::uint32_t kNone = 0xffffffffU;
 
-/// Coordinates beyond this (metres) are no geometry: squared distances of such points leave the range of a float.
+/// Coordinates beyond this (metres) are no geometry: squared distances of such points leave the range of a
+/// float.
 inline constexpr float kMaxCoordinate = 1.8e18F;
 
 /// True for a finite point within kMaxCoordinate on every axis.
@@ -39,8 +41,8 @@ struct TextureSlot {
     std::uint32_t uv_set = 0;
     Wrap wrap_u = Wrap::repeat;
     Wrap wrap_v = Wrap::repeat;
-    bool linear = true;            ///< bilinear, else nearest
-    vec3 u_from_uv{1, 0, 0};       ///< u' = dot(u_from_uv, (u, v, 1)); KHR_texture_transform
+    bool linear = true;       ///< bilinear, else nearest
+    vec3 u_from_uv{1, 0, 0};  ///< u' = dot(u_from_uv, (u, v, 1)); KHR_texture_transform
     vec3 v_from_uv{0, 1, 0};
 
     [[nodiscard]] bool present() const { return texture != kNone; }
@@ -75,10 +77,10 @@ struct Material {
 struct Mesh {
     std::string name;
     std::vector<vec3> positions;
-    std::vector<vec3> normals;                ///< unit, or zero where a vertex has none; empty: flat, from the faces
-    std::vector<vec4> tangents;               ///< w = handedness; empty: derived where a normal map wants them
-    std::vector<vec4> colors;                 ///< COLOR_0, linear, alpha in w
-    std::vector<std::vector<vec2>> uv_sets;   ///< TEXCOORD_0..n
+    std::vector<vec3> normals;   ///< unit, or zero where a vertex has none; empty: flat, from the faces
+    std::vector<vec4> tangents;  ///< w = handedness; empty: derived where a normal map wants them
+    std::vector<vec4> colors;    ///< COLOR_0, linear, alpha in w
+    std::vector<std::vector<vec2>> uv_sets;  ///< TEXCOORD_0..n
     std::vector<uvec3> triangles;
     std::uint32_t material = 0;
 };
@@ -96,27 +98,28 @@ struct Camera {
     std::string name;
     Kind kind = Kind::perspective;
     mat4 world_from_view{1.0F};
-    float y_fov = 0.8F;          ///< perspective: whole vertical angle, radians
-    float y_extent = 1.0F;       ///< orthographic: half height (glTF's ymag)
-    float aspect = 0.0F;         ///< width / height; 0: the picture's
-    float z_near = 0.01F;        ///< nothing nearer is seen by the camera; there is no far plane
+    float y_fov = 0.8F;     ///< perspective: whole vertical angle, radians
+    float y_extent = 1.0F;  ///< orthographic: half height (glTF's ymag)
+    float aspect = 0.0F;    ///< width / height; 0: the picture's
+    float z_near = 0.01F;   ///< nothing nearer is seen by the camera; there is no far plane
 };
 
-/// KHR_lights_punctual. Directional: color * intensity is illuminance in lux; point and spot: luminous intensity in candela.
+/// KHR_lights_punctual. Directional: color * intensity is illuminance in lux; point and spot: luminous
+/// intensity in candela.
 struct PunctualLight {
     enum class Kind : std::uint32_t { point, spot, directional };
     std::string name;
     Kind kind = Kind::point;
-    vec3 intensity{1.0F};       ///< colour * intensity
-    vec3 position{0.0F};        ///< world
-    vec3 direction{0, 0, -1};   ///< world, unit, the way the light travels (spot, directional)
-    float inner_cone = 0.0F;    ///< radians
+    vec3 intensity{1.0F};      ///< colour * intensity
+    vec3 position{0.0F};       ///< world
+    vec3 direction{0, 0, -1};  ///< world, unit, the way the light travels (spot, directional)
+    float inner_cone = 0.0F;   ///< radians
     float outer_cone = 0.7853982F;
-    float range = 0.0F;         ///< metres; 0: unlimited
+    float range = 0.0F;  ///< metres; 0: unlimited
 };
 
-/// Radiance from infinitely far: a lat-long map in cd/m^2. Row 0 is the zenith (+Y). Column centre of the map looks along -Z... the formula
-/// stands once, in shaders/pure/latlong.glsl. A constant sky is a 1x1 map.
+/// Radiance from infinitely far: a lat-long map in cd/m^2. Row 0 is the zenith (+Y). Column centre of the map
+/// looks along -Z... the formula stands once, in shaders/pure/latlong.glsl. A constant sky is a 1x1 map.
 struct Environment {
     std::string name;
     Image radiance;
@@ -145,16 +148,19 @@ struct Scene {
 /// World bounds of all instances; empty when there is no geometry.
 Bounds sceneBounds(const Scene& scene);
 
-/// A camera that sees all of the bounds from the front and a little above, for scenes that bring none. Deterministic.
+/// A camera that sees all of the bounds from the front and a little above, for scenes that bring none.
+/// Deterministic.
 Camera framingCamera(const Bounds& bounds, float aspect);
 
-/// True where nothing in the scene can give light: no emission, no punctual light, no environment, nothing unlit.
+/// True where nothing in the scene can give light: no emission, no punctual light, no environment, nothing
+/// unlit.
 bool isDark(const Scene& scene);
 
 /// A constant sky of that radiance (cd/m^2).
 Environment constantEnvironment(const vec3& radiance);
 
-/// Checks what every consumer relies on (indices in range, array lengths, finite transforms). Throws InputError naming the object.
+/// Checks what every consumer relies on (indices in range, array lengths, finite transforms). Throws
+/// InputError naming the object.
 void validateScene(const Scene& scene);
 
 }  // namespace licht

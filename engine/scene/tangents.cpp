@@ -64,7 +64,8 @@ void deriveTangents(Mesh& mesh, const TextureSlot& slot) {
             p.at(k) = dvec3(mesh.positions[vertex]);
             if (has_uvs) {
                 const vec3 raw(mesh.uv_sets[slot.uv_set][vertex], 1.0F);
-                uv.at(k) = dvec2(glm::dot(dvec3(slot.u_from_uv), dvec3(raw)), glm::dot(dvec3(slot.v_from_uv), dvec3(raw)));
+                uv.at(k) = dvec2(glm::dot(dvec3(slot.u_from_uv), dvec3(raw)),
+                                 glm::dot(dvec3(slot.v_from_uv), dvec3(raw)));
             }
         }
         const Gradients g = gradients(p, uv);

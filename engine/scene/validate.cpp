@@ -10,18 +10,31 @@
 namespace licht {
 namespace {
 
-void require(bool holds, std::string_view kind, std::size_t index, std::string_view name, std::string_view reason) {
+void require(bool holds, std::string_view kind, std::size_t index, std::string_view name,
+             std::string_view reason) {
     if (!holds) {
         throw InputError(fmt::format("scene: {} {} '{}': {}", kind, index, name, reason));
     }
 }
 
-bool finite(float x) { return std::isfinite(x); }
-bool finite(const vec3& v) { return finite(v.x) && finite(v.y) && finite(v.z); }
-bool finite(const vec4& v) { return finite(vec3(v)) && finite(v.w); }
-bool finite(const mat4& m) { return finite(m[0]) && finite(m[1]) && finite(m[2]) && finite(m[3]); }
-bool inUnit(float x) { return x >= 0.0F && x <= 1.0F; }
-bool notNegative(const vec3& v) { return finite(v) && v.x >= 0.0F && v.y >= 0.0F && v.z >= 0.0F; }
+bool finite(float x) {
+    return std::isfinite(x);
+}
+bool finite(const vec3& v) {
+    return finite(v.x) && finite(v.y) && finite(v.z);
+}
+bool finite(const vec4& v) {
+    return finite(vec3(v)) && finite(v.w);
+}
+bool finite(const mat4& m) {
+    return finite(m[0]) && finite(m[1]) && finite(m[2]) && finite(m[3]);
+}
+bool inUnit(float x) {
+    return x >= 0.0F && x <= 1.0F;
+}
+bool notNegative(const vec3& v) {
+    return finite(v) && v.x >= 0.0F && v.y >= 0.0F && v.z >= 0.0F;
+}
 
 void validateTextures(const Scene& scene) {
     for (std::size_t i = 0; i < scene.textures.size(); ++i) {
@@ -36,8 +49,8 @@ void validateTextures(const Scene& scene) {
 void validateMaterials(const Scene& scene) {
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
         const Material& m = scene.materials[i];
-        require(finite(m.base_color) && notNegative(vec3(m.base_color)) && m.base_color.w >= 0.0F, "material", i, m.name,
-                "the base colour is negative or not finite");
+        require(finite(m.base_color) && notNegative(vec3(m.base_color)) && m.base_color.w >= 0.0F, "material",
+                i, m.name, "the base colour is negative or not finite");
         require(inUnit(m.metallic) && inUnit(m.roughness) && inUnit(m.specular), "material", i, m.name,
                 "metallic, roughness or specular lies outside [0,1]");
         require(notNegative(m.emission) && notNegative(m.specular_color), "material", i, m.name,
@@ -46,8 +59,9 @@ void validateMaterials(const Scene& scene) {
                 "normal scale or alpha cutoff is not finite");
         require(m.ior == 0.0F || (m.ior >= 1.0F && finite(m.ior)), "material", i, m.name,
                 "the index of refraction is neither 0 nor at least 1");
-        for (const TextureSlot* slot : {&m.base_color_texture, &m.metallic_roughness_texture, &m.normal_texture,
-                                        &m.emissive_texture, &m.specular_texture, &m.specular_color_texture}) {
+        for (const TextureSlot* slot :
+             {&m.base_color_texture, &m.metallic_roughness_texture, &m.normal_texture, &m.emissive_texture,
+              &m.specular_texture, &m.specular_color_texture}) {
             require(!slot->present() || slot->texture < scene.textures.size(), "material", i, m.name,
                     "it names a texture that is not there");
             require(finite(slot->u_from_uv) && finite(slot->v_from_uv), "material", i, m.name,
@@ -64,17 +78,22 @@ void validateMeshes(const Scene& scene) {
         require(fits(m.normals) && fits(m.tangents) && fits(m.colors), "mesh", i, m.name,
                 "an attribute is not as long as its positions");
         for (const auto& uvs : m.uv_sets) {
-            require(fits(uvs), "mesh", i, m.name, "a set of texture coordinates is not as long as its positions");
+            require(fits(uvs), "mesh", i, m.name,
+                    "a set of texture coordinates is not as long as its positions");
         }
         for (const uvec3& t : m.triangles) {
-            require(t.x < n && t.y < n && t.z < n, "mesh", i, m.name, "a triangle names a vertex that is not there");
+            require(t.x < n && t.y < n && t.z < n, "mesh", i, m.name,
+                    "a triangle names a vertex that is not there");
         }
-        require(m.material < scene.materials.size(), "mesh", i, m.name, "it names a material that is not there");
+        require(m.material < scene.materials.size(), "mesh", i, m.name,
+                "it names a material that is not there");
     }
     for (std::size_t i = 0; i < scene.instances.size(); ++i) {
         const Instance& instance = scene.instances[i];
-        require(instance.mesh < scene.meshes.size(), "instance", i, instance.name, "it names a mesh that is not there");
-        require(finite(instance.world_from_object), "instance", i, instance.name, "its transform is not finite");
+        require(instance.mesh < scene.meshes.size(), "instance", i, instance.name,
+                "it names a mesh that is not there");
+        require(finite(instance.world_from_object), "instance", i, instance.name,
+                "its transform is not finite");
     }
 }
 
@@ -84,10 +103,10 @@ void validateViews(const Scene& scene) {
         require(finite(c.world_from_view), "camera", i, c.name, "its transform is not finite");
         require(c.kind != Camera::Kind::perspective || (c.y_fov > 0.0F && c.y_fov < kPi), "camera", i, c.name,
                 "its vertical angle lies outside (0, pi)");
-        require(c.kind != Camera::Kind::orthographic || (c.y_extent > 0.0F && finite(c.y_extent)), "camera", i, c.name,
-                "its half height is not positive");
-        require(c.z_near >= 0.0F && finite(c.z_near) && c.aspect >= 0.0F && finite(c.aspect), "camera", i, c.name,
-                "its near plane or aspect ratio is negative or not finite");
+        require(c.kind != Camera::Kind::orthographic || (c.y_extent > 0.0F && finite(c.y_extent)), "camera",
+                i, c.name, "its half height is not positive");
+        require(c.z_near >= 0.0F && finite(c.z_near) && c.aspect >= 0.0F && finite(c.aspect), "camera", i,
+                c.name, "its near plane or aspect ratio is negative or not finite");
     }
 }
 
@@ -97,17 +116,18 @@ void validateLights(const Scene& scene) {
         require(notNegative(l.intensity), "light", i, l.name, "its intensity is negative or not finite");
         require(finite(l.position), "light", i, l.name, "its position is not finite");
         // Three roundings of half an ulp each leave a normalised vector's length within 4 ulp of one.
-        require(std::abs(glm::length(l.direction) - 1.0F) <= 4.0F * std::numeric_limits<float>::epsilon(), "light", i,
-                l.name, "its direction is not a unit vector");
-        require(l.inner_cone >= 0.0F && l.inner_cone <= l.outer_cone && l.outer_cone <= 0.5F * kPi, "light", i, l.name,
-                "its cone angles do not rise from 0 to at most pi/2");
+        require(std::abs(glm::length(l.direction) - 1.0F) <= 4.0F * std::numeric_limits<float>::epsilon(),
+                "light", i, l.name, "its direction is not a unit vector");
+        require(l.inner_cone >= 0.0F && l.inner_cone <= l.outer_cone && l.outer_cone <= 0.5F * kPi, "light",
+                i, l.name, "its cone angles do not rise from 0 to at most pi/2");
         require(l.range >= 0.0F, "light", i, l.name, "its range is negative or not a number");
     }
     if (scene.environment) {
         const Image& map = scene.environment->radiance;
-        require(map.width > 0 && map.height > 0 && map.channels == 3, "environment", 0, scene.environment->name,
-                "it is no map of three channels");
-        require(map.texels.size() == std::size_t{3} * static_cast<std::size_t>(map.width) * static_cast<std::size_t>(map.height),
+        require(map.width > 0 && map.height > 0 && map.channels == 3, "environment", 0,
+                scene.environment->name, "it is no map of three channels");
+        require(map.texels.size() == std::size_t{3} * static_cast<std::size_t>(map.width) *
+                                         static_cast<std::size_t>(map.height),
                 "environment", 0, scene.environment->name, "its texels do not match its size");
     }
 }

@@ -17,38 +17,52 @@ constexpr std::uint32_t kMaxCount32 = std::numeric_limits<std::uint32_t>::max();
 
 /// An option of one value that `take` parses; take is given the option's name for its message.
 template <typename Take>
-CLI::Option* addValue(CLI::App& app, const std::string& name, const std::string& type, const std::string& meaning, Take take) {
-    return app.add_option_function<std::string>(
-                  name, [name, take](const std::string& text) { take(std::string_view(name), std::string_view(text)); }, meaning)
+CLI::Option* addValue(CLI::App& app, const std::string& name, const std::string& type,
+                      const std::string& meaning, Take take) {
+    return app
+        .add_option_function<std::string>(
+            name,
+            [name, take](const std::string& text) { take(std::string_view(name), std::string_view(text)); },
+            meaning)
         ->type_name(type);
 }
 
 std::string sceneHelp() {
     std::string help = "A .gltf or .glb file, or a built-in scene:";
-    for (const BuiltinScene& scene : builtinScenes()) help += fmt::format("\n  {}: {}", scene.name, scene.meaning);
+    for (const BuiltinScene& scene : builtinScenes())
+        help += fmt::format("\n  {}: {}", scene.name, scene.meaning);
     return help;
 }
 
 void addSource(CLI::App& app, SceneRequest& source) {
     app.add_option("SCENE", source.scene, sceneHelp())->required()->type_name("");
-    addValue(app, "--camera", "NAME|INDEX", "Camera of the scene (default: its first, or one that frames everything)",
+    addValue(app, "--camera", "NAME|INDEX",
+             "Camera of the scene (default: its first, or one that frames everything)",
              [&source](std::string_view, std::string_view text) { source.camera = text; });
-    CLI::Option* environment = addValue(app, "--environment", "FILE", "Latitude-longitude sky, .hdr or .exr, in cd/m^2",
-                                        [&source](std::string_view, std::string_view text) { source.environment = text; });
+    CLI::Option* environment =
+        addValue(app, "--environment", "FILE", "Latitude-longitude sky, .hdr or .exr, in cd/m^2",
+                 [&source](std::string_view, std::string_view text) { source.environment = text; });
     addValue(app, "--background", "R,G,B", "Constant sky in cd/m^2, linear Rec. 709",
-             [&source](std::string_view option, std::string_view text) { source.background = parseColour(option, text); })
+             [&source](std::string_view option, std::string_view text) {
+                 source.background = parseColour(option, text);
+             })
         ->excludes(environment);
 }
 
-void addLook(CLI::App& app, std::optional<uvec2>& size, std::optional<double>& exposure, Tonemap& tonemap, std::string& device,
-             const std::string& default_size) {
+void addLook(CLI::App& app, std::optional<uvec2>& size, std::optional<double>& exposure, Tonemap& tonemap,
+             std::string& device, const std::string& default_size) {
     addValue(app, "--size", "WxH", "Width and height in pixels (default: " + default_size + ")",
              [&size](std::string_view option, std::string_view text) { size = parseSize(option, text); });
-    addValue(app, "--exposure", "EV", "Display exposure in stops: values are multiplied by 2^EV (default: the scene's)",
-             [&exposure](std::string_view option, std::string_view text) { exposure = parseExposure(option, text); });
-    addValue(app, "--tonemap", "CURVE", "Display curve: none, neutral, agx or aces (default: neutral)",
-             [&tonemap](std::string_view option, std::string_view text) { tonemap = parseTonemap(option, text); });
-    addValue(app, "--device", "NAME|INDEX", "Vulkan device, see 'licht devices' (default: the best usable one)",
+    addValue(app, "--exposure", "EV",
+             "Display exposure in stops: values are multiplied by 2^EV (default: the scene's)",
+             [&exposure](std::string_view option, std::string_view text) {
+                 exposure = parseExposure(option, text);
+             });
+    addValue(
+        app, "--tonemap", "CURVE", "Display curve: none, neutral, agx or aces (default: neutral)",
+        [&tonemap](std::string_view option, std::string_view text) { tonemap = parseTonemap(option, text); });
+    addValue(app, "--device", "NAME|INDEX",
+             "Vulkan device, see 'licht devices' (default: the best usable one)",
              [&device](std::string_view, std::string_view text) { device = text; });
 }
 
@@ -65,20 +79,28 @@ void addTransport(CLI::App& app, RenderSettings& settings) {
 
 void addExpert(CLI::App& app, RenderSettings& settings) {
     const std::string group = "Expert options";
-    addValue(app, "--roulette", "BOUNCE", "First bounce that may end a path by chance, keeping the mean (default: 8)",
+    addValue(app, "--roulette", "BOUNCE",
+             "First bounce that may end a path by chance, keeping the mean (default: 8)",
              [&settings](std::string_view option, std::string_view text) {
                  settings.roulette_start = parseCount32(option, text, 0, kMaxCount32);
              })
         ->group(group);
-    addValue(app, "--direct", "HOW", "Direct light by mis (lights and scattering combined) or hemisphere (scattering alone) (default: mis)",
-             [&settings](std::string_view option, std::string_view text) { settings.direct = parseDirectLight(option, text); })
+    addValue(app, "--direct", "HOW",
+             "Direct light by mis (lights and scattering combined) or hemisphere (scattering alone) "
+             "(default: mis)",
+             [&settings](std::string_view option, std::string_view text) {
+                 settings.direct = parseDirectLight(option, text);
+             })
         ->group(group);
-    addValue(app, "--first-sample", "N", "Index of the first sample: ranges rendered apart merge to the whole (default: 0)",
+    addValue(app, "--first-sample", "N",
+             "Index of the first sample: ranges rendered apart merge to the whole (default: 0)",
              [&settings](std::string_view option, std::string_view text) {
                  settings.first_sample = parseCount32(option, text, 0, kMaxCount32 - 1);
              })
         ->group(group);
-    app.add_flag("--all-effects", settings.all_effects, "Compile every effect, whether the scene calls for it or not")->group(group);
+    app.add_flag("--all-effects", settings.all_effects,
+                 "Compile every effect, whether the scene calls for it or not")
+        ->group(group);
 }
 
 void addRender(CLI::App& app, RenderOptions& options) {
@@ -93,17 +115,27 @@ void addRender(CLI::App& app, RenderOptions& options) {
         ->type_name("FILE");
     addLook(app, options.size, options.exposure, options.tonemap, options.device,
             "height 540, width by the camera, 960x540 if it does not say");
-    addValue(app, "--spp", "N", fmt::format("Samples per pixel (default: {} unless --time or --error is given)", kDefaultSamples),
-             [&options](std::string_view option, std::string_view text) {
-                 options.samples = parseCount32(option, text, 1, kMaxCount32);
-             });
+    addValue(
+        app, "--spp", "N",
+        fmt::format("Samples per pixel (default: {} unless --time or --error is given)", kDefaultSamples),
+        [&options](std::string_view option, std::string_view text) {
+            options.samples = parseCount32(option, text, 1, kMaxCount32);
+        });
     addValue(app, "--time", "SECONDS", "Stop after that many seconds of rendering",
-             [&options](std::string_view option, std::string_view text) { options.seconds = parsePositive(option, text); });
-    addValue(app, "--error", "REL", "Stop at that estimated relative error (square root of relMSE); 0.01 is a clean picture",
-             [&options](std::string_view option, std::string_view text) { options.error = parsePositive(option, text); });
+             [&options](std::string_view option, std::string_view text) {
+                 options.seconds = parsePositive(option, text);
+             });
+    addValue(app, "--error", "REL",
+             "Stop at that estimated relative error (square root of relMSE); 0.01 is a clean picture",
+             [&options](std::string_view option, std::string_view text) {
+                 options.error = parsePositive(option, text);
+             });
     addTransport(app, options.settings);
-    addValue(app, "--aov", "LIST", "Layers for .exr outputs: all, or from albedo,normal,depth,motion,variance,sampleCount",
-             [&options](std::string_view option, std::string_view text) { options.layers = parseLayers(option, text); });
+    addValue(app, "--aov", "LIST",
+             "Layers for .exr outputs: all, or from albedo,normal,depth,motion,variance,sampleCount",
+             [&options](std::string_view option, std::string_view text) {
+                 options.layers = parseLayers(option, text);
+             });
     addValue(app, "--report", "FILE", "Write what was done and what it cost as JSON",
              [&options](std::string_view, std::string_view text) { options.report = text; });
     app.add_flag("--quiet", options.quiet, "Say nothing but errors");
@@ -119,19 +151,22 @@ void addView(CLI::App& app, ViewOptions& options) {
                  options.frames = parseCount(option, text, 1, std::numeric_limits<std::uint64_t>::max());
              });
     app.footer(
-        "Left drag: orbit. Right or middle drag: pan. Wheel: dolly. W A S D: move. R: reset. + -: exposure. T: next tone map. Esc: quit.\n"
+        "Left drag: orbit. Right or middle drag: pan. Wheel: dolly. W A S D: move. R: reset. + -: exposure. "
+        "T: next tone map. Esc: quit.\n"
         "The picture becomes cleaner while nothing moves.");
 }
 
 void checkTogether(const RenderOptions& options) {
-    const auto isExr = [](const std::filesystem::path& path) { return lowerCase(path.extension().string()) == ".exr"; };
+    const auto isExr = [](const std::filesystem::path& path) {
+        return lowerCase(path.extension().string()) == ".exr";
+    };
     const AovSet& aovs = options.layers.aovs;
     const bool layers = aovs.any() || options.layers.variance || options.layers.sample_count;
     if (layers && std::none_of(options.outputs.begin(), options.outputs.end(), isExr))
         throw InputError("--aov: layers are stored in .exr files only: add -o FILE.exr");
     if (options.samples && *options.samples > kMaxCount32 - options.settings.first_sample)
-        throw InputError(fmt::format("--first-sample {} and --spp {}: sample indices end at {}", options.settings.first_sample,
-                                     *options.samples, kMaxCount32));
+        throw InputError(fmt::format("--first-sample {} and --spp {}: sample indices end at {}",
+                                     options.settings.first_sample, *options.samples, kMaxCount32));
 }
 
 }  // namespace
@@ -154,7 +189,8 @@ Command parseCommandLine(int argument_count, const char* const* arguments) {
     CLI::App* info_app = app.add_subcommand("info", "Say what is in a scene and which effects it calls for");
     info_app->add_option("SCENE", info.scene, sceneHelp())->required()->type_name("");
     info_app->add_flag("--json", info.json, "As JSON");
-    CLI::App* devices_app = app.add_subcommand("devices", "List every Vulkan device, chosen or refused with all reasons");
+    CLI::App* devices_app =
+        app.add_subcommand("devices", "List every Vulkan device, chosen or refused with all reasons");
     devices_app->add_flag("--json", devices.json, "As JSON");
 
     try {
@@ -169,7 +205,8 @@ Command parseCommandLine(int argument_count, const char* const* arguments) {
     if (info_app->parsed()) return info;
     if (devices_app->parsed()) return devices;
     if (view_app->parsed()) return view;
-    if (!render_app->parsed()) throw InputError("a subcommand is needed: render, view, info or devices (see 'licht --help')");
+    if (!render_app->parsed())
+        throw InputError("a subcommand is needed: render, view, info or devices (see 'licht --help')");
     checkTogether(render);
     return render;
 }

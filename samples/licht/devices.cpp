@@ -28,8 +28,8 @@ std::string devicesText(const std::vector<gpu::DeviceReport>& reports) {
     std::string text;
     for (const gpu::DeviceReport& report : reports) {
         const char* verdict = report.chosen ? "chosen" : report.refusals.empty() ? "usable" : "refused";
-        text += fmt::format("{}  {}  {}\n   {}, {}, Vulkan {}\n", report.index, report.name, verdict, report.type, report.driver,
-                            report.api_version);
+        text += fmt::format("{}  {}  {}\n   {}, {}, Vulkan {}\n", report.index, report.name, verdict,
+                            report.type, report.driver, report.api_version);
         for (const std::string& reason : report.refusals) text += fmt::format("   refused: {}\n", reason);
     }
     return text;
@@ -40,7 +40,8 @@ std::string devicesText(const std::vector<gpu::DeviceReport>& reports) {
 int devices(const DevicesOptions& options) {
     const std::vector<gpu::DeviceReport> reports = gpu::listDevices({});
     fmt::print("{}", options.json ? devicesJson(reports) : devicesText(reports));
-    if (std::none_of(reports.begin(), reports.end(), [](const gpu::DeviceReport& report) { return report.chosen; }))
+    if (std::none_of(reports.begin(), reports.end(),
+                     [](const gpu::DeviceReport& report) { return report.chosen; }))
         throw DeviceError("no usable Vulkan device on this machine");
     return 0;
 }

@@ -8,12 +8,14 @@ namespace {
 
 /// Channels of the image, in order, under these names.
 void addChannels(ExrPicture& picture, const Image& image, std::initializer_list<const char*> names) {
-    assert(image.width == picture.width && image.height == picture.height && static_cast<std::size_t>(image.channels) >= names.size());
+    assert(image.width == picture.width && image.height == picture.height &&
+           static_cast<std::size_t>(image.channels) >= names.size());
     const auto stride = static_cast<std::size_t>(image.channels);
     std::size_t offset = 0;
     for (const char* name : names) {
         ExrChannel channel{name, std::vector<float>(image.texels.size() / stride)};
-        for (std::size_t pixel = 0; pixel < channel.values.size(); ++pixel) channel.values[pixel] = image.texels[pixel * stride + offset];
+        for (std::size_t pixel = 0; pixel < channel.values.size(); ++pixel)
+            channel.values[pixel] = image.texels[pixel * stride + offset];
         picture.channels.push_back(std::move(channel));
         ++offset;
     }
@@ -21,7 +23,8 @@ void addChannels(ExrPicture& picture, const Image& image, std::initializer_list<
 
 }  // namespace
 
-ExrPicture exrPicture(const Film& film, const Layers& layers, std::vector<std::pair<std::string, std::string>> attributes) {
+ExrPicture exrPicture(const Film& film, const Layers& layers,
+                      std::vector<std::pair<std::string, std::string>> attributes) {
     ExrPicture picture;
     picture.width = static_cast<int>(film.size.x);
     picture.height = static_cast<int>(film.size.y);
@@ -33,8 +36,8 @@ ExrPicture exrPicture(const Film& film, const Layers& layers, std::vector<std::p
     if (layers.aovs.motion) addChannels(picture, film.motion, {"motion.X", "motion.Y"});
     if (layers.variance) addChannels(picture, film.variance, {"variance.R", "variance.G", "variance.B"});
     if (layers.sample_count)
-        picture.channels.push_back(
-            {"sampleCount", std::vector<float>(std::size_t{film.size.x} * film.size.y, static_cast<float>(film.samples))});
+        picture.channels.push_back({"sampleCount", std::vector<float>(std::size_t{film.size.x} * film.size.y,
+                                                                      static_cast<float>(film.samples))});
     return picture;
 }
 

@@ -10,6 +10,7 @@
 namespace licht {
 
 /// The film as EXR channels under the ecosystem's names: R G B A, and the layers asked for.
-ExrPicture exrPicture(const Film& film, const Layers& layers, std::vector<std::pair<std::string, std::string>> attributes);
+ExrPicture exrPicture(const Film& film, const Layers& layers,
+                      std::vector<std::pair<std::string, std::string>> attributes);
 
 }  // namespace licht

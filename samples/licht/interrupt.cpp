@@ -12,7 +12,9 @@ volatile std::sig_atomic_t signalled = 0;
 std::array<struct sigaction, kSignals.size()> previous{};
 bool watching = false;
 
-extern "C" void noteSignal(int /*signal*/) { signalled = 1; }
+extern "C" void noteSignal(int /*signal*/) {
+    signalled = 1;
+}
 
 }  // namespace
 
@@ -32,7 +34,9 @@ InterruptWatch::~InterruptWatch() {
     watching = false;
 }
 
-bool InterruptWatch::asked() const { return signalled != 0; }
+bool InterruptWatch::asked() const {
+    return signalled != 0;
+}
 
 void InterruptWatch::shield() {
     struct sigaction ignore {};

@@ -35,7 +35,8 @@ std::optional<T> wholeNumber(std::string_view text) {
 }
 
 template <typename Choice, std::size_t n>
-Choice choose(std::string_view option, std::string_view text, const std::array<std::pair<std::string_view, Choice>, n>& choices) {
+Choice choose(std::string_view option, std::string_view text,
+              const std::array<std::pair<std::string_view, Choice>, n>& choices) {
     std::string names;
     for (const auto& [name, choice] : choices) {
         if (name == text) return choice;
@@ -51,20 +52,26 @@ uvec2 parseSize(std::string_view option, std::string_view text) {
     if (cross != std::string_view::npos) {
         const auto width = wholeNumber<std::uint32_t>(text.substr(0, cross));
         const auto height = wholeNumber<std::uint32_t>(text.substr(cross + 1));
-        const auto inRange = [](std::optional<std::uint32_t> side) { return side && *side >= 1 && *side <= kMaxPictureSide; };
-        if (inRange(width) && inRange(height) && std::uint64_t{*width} * *height <= kMaxPicturePixels) return {*width, *height};
+        const auto inRange = [](std::optional<std::uint32_t> side) {
+            return side && *side >= 1 && *side <= kMaxPictureSide;
+        };
+        if (inRange(width) && inRange(height) && std::uint64_t{*width} * *height <= kMaxPicturePixels)
+            return {*width, *height};
     }
     refuse(option, text,
-           fmt::format("WIDTHxHEIGHT, each 1 to {} and at most {} pixels together", kMaxPictureSide, kMaxPicturePixels));
+           fmt::format("WIDTHxHEIGHT, each 1 to {} and at most {} pixels together", kMaxPictureSide,
+                       kMaxPicturePixels));
 }
 
-std::uint64_t parseCount(std::string_view option, std::string_view text, std::uint64_t lowest, std::uint64_t highest) {
+std::uint64_t parseCount(std::string_view option, std::string_view text, std::uint64_t lowest,
+                         std::uint64_t highest) {
     const auto value = wholeNumber<std::uint64_t>(text);
     if (value && *value >= lowest && *value <= highest) return *value;
     refuse(option, text, fmt::format("a whole number from {} to {}", lowest, highest));
 }
 
-std::uint32_t parseCount32(std::string_view option, std::string_view text, std::uint32_t lowest, std::uint32_t highest) {
+std::uint32_t parseCount32(std::string_view option, std::string_view text, std::uint32_t lowest,
+                           std::uint32_t highest) {
     return static_cast<std::uint32_t>(parseCount(option, text, lowest, highest));
 }
 
@@ -93,10 +100,13 @@ vec3 parseColour(std::string_view option, std::string_view text) {
     refuse(option, text, "R,G,B: three numbers, 0 or greater");
 }
 
-Tonemap parseTonemap(std::string_view option, std::string_view text) { return choose(option, text, kTonemaps); }
+Tonemap parseTonemap(std::string_view option, std::string_view text) {
+    return choose(option, text, kTonemaps);
+}
 
 std::string_view tonemapName(Tonemap curve) {
-    const auto found = std::find_if(kTonemaps.begin(), kTonemaps.end(), [curve](const auto& known) { return known.second == curve; });
+    const auto found = std::find_if(kTonemaps.begin(), kTonemaps.end(),
+                                    [curve](const auto& known) { return known.second == curve; });
     assert(found != kTonemaps.end());
     return found->first;
 }

@@ -1,5 +1,6 @@
 #pragma once
-// What each subcommand can be told, and the parsers of option values. A parser names the option, the value and what is allowed.
+// What each subcommand can be told, and the parsers of option values. A parser names the option, the value
+// and what is allowed.
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -14,14 +15,15 @@ namespace licht {
 inline constexpr std::uint32_t kMaxPictureSide = 16384;
 inline constexpr std::uint64_t kMaxPicturePixels = std::uint64_t{1} << 27U;
 inline constexpr std::uint32_t kMaxBounces = 65535;
-inline constexpr std::uint32_t kDefaultSamples = 64;  ///< per pixel, where neither time nor error says when to stop
+inline constexpr std::uint32_t kDefaultSamples =
+    64;  ///< per pixel, where neither time nor error says when to stop
 
 /// Which scene, seen how, lit by what. Shared by render and view.
 struct SceneRequest {
-    std::string scene;                         ///< built-in name or path of a .gltf or .glb
-    std::optional<std::string> camera;         ///< name or index; none: the first, or one that frames the scene
-    std::optional<std::string> environment;    ///< path of an .hdr or .exr
-    std::optional<vec3> background;            ///< cd/m^2, a constant sky; excludes environment
+    std::string scene;                       ///< built-in name or path of a .gltf or .glb
+    std::optional<std::string> camera;       ///< name or index; none: the first, or one that frames the scene
+    std::optional<std::string> environment;  ///< path of an .hdr or .exr
+    std::optional<vec3> background;          ///< cd/m^2, a constant sky; excludes environment
 };
 
 /// Layers of an EXR file beside R G B A.
@@ -38,8 +40,8 @@ struct RenderOptions {
     std::optional<std::uint32_t> samples;
     std::optional<double> seconds;
     std::optional<double> error;
-    RenderSettings settings;                     ///< size and aovs are filled in from the fields beside it
-    std::optional<double> exposure;              ///< EV; none: the scene's
+    RenderSettings settings;         ///< size and aovs are filled in from the fields beside it
+    std::optional<double> exposure;  ///< EV; none: the scene's
     Tonemap tonemap = Tonemap::neutral;
     Layers layers;
     std::string device;
@@ -69,9 +71,11 @@ struct ViewOptions {
 /// "960x540": each side 1 to kMaxPictureSide, at most kMaxPicturePixels together.
 uvec2 parseSize(std::string_view option, std::string_view text);
 /// A whole number from lowest to highest.
-std::uint64_t parseCount(std::string_view option, std::string_view text, std::uint64_t lowest, std::uint64_t highest);
+std::uint64_t parseCount(std::string_view option, std::string_view text, std::uint64_t lowest,
+                         std::uint64_t highest);
 /// The same for the 32-bit settings.
-std::uint32_t parseCount32(std::string_view option, std::string_view text, std::uint32_t lowest, std::uint32_t highest);
+std::uint32_t parseCount32(std::string_view option, std::string_view text, std::uint32_t lowest,
+                           std::uint32_t highest);
 /// Finite and greater than zero.
 double parsePositive(std::string_view option, std::string_view text);
 /// An exposure value in stops, -64 to 64: beyond, 2^EV and a float radiance soon have no common range.

@@ -4,14 +4,16 @@
 
 namespace licht {
 
-/// A camera that turns about a point. A plain value: every motion is a function of it and the hand's move, and nothing else.
+/// A camera that turns about a point. A plain value: every motion is a function of it and the hand's move,
+/// and nothing else.
 class OrbitCamera {
 public:
-    /// Starts exactly at `camera`; the point it turns about lies on its axis, at the depth of the bounds' centre.
+    /// Starts exactly at `camera`; the point it turns about lies on its axis, at the depth of the bounds'
+    /// centre.
     OrbitCamera(const Camera& camera, const Bounds& bounds);
 
-    /// Turns by these angles in radians: about the world's up axis, then about the camera's right axis. Looking straight up or down is
-    /// not passed.
+    /// Turns by these angles in radians: about the world's up axis, then about the camera's right axis.
+    /// Looking straight up or down is not passed.
     void orbit(float yaw, float pitch);
     /// Moves parallel to the picture, in picture heights, so that the point turned about follows the hand.
     void pan(float right, float up);

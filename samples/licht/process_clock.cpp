@@ -19,7 +19,8 @@ double now() {
     return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-/// Field 22 of /proc/self/stat (proc(5)); the second field is the program's name in parentheses and may hold anything.
+/// Field 22 of /proc/self/stat (proc(5)); the second field is the program's name in parentheses and may hold
+/// anything.
 std::optional<double> toldStart() {
     std::ifstream file("/proc/self/stat");
     std::string text;
@@ -40,7 +41,8 @@ std::optional<double> toldStart() {
 const double kInitialised = now();
 
 double startTime() {
-    // A start after this program's own initialisers, or minutes before them, is another clock's: some sandboxes tell nonsense.
+    // A start after this program's own initialisers, or minutes before them, is another clock's: some
+    // sandboxes tell nonsense.
     constexpr double kLongestLoading = 60.0;
     const auto told = toldStart();
     const bool plausible = told && *told <= kInitialised && *told >= kInitialised - kLongestLoading;

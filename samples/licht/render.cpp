@@ -20,9 +20,13 @@ namespace licht {
 namespace {
 
 /// Fails before anything is rendered when a file could not be written afterwards.
-void checkWritable(const std::filesystem::path& path) { const AtomicFile probe(path); }
+void checkWritable(const std::filesystem::path& path) {
+    const AtomicFile probe(path);
+}
 
-bool isExr(const std::filesystem::path& path) { return lowerCase(path.extension().string()) == ".exr"; }
+bool isExr(const std::filesystem::path& path) {
+    return lowerCase(path.extension().string()) == ".exr";
+}
 
 StopRules stopRules(const RenderOptions& options) {
     StopRules rules;
@@ -45,7 +49,8 @@ Image opaquePicture(const Image& rgba) {
     return rgb;
 }
 
-void describeRun(RenderReport& report, const gpu::Device& device, const Renderer& renderer, const LoopResult& result) {
+void describeRun(RenderReport& report, const gpu::Device& device, const Renderer& renderer,
+                 const LoopResult& result) {
     report.device = device.report().name;
     report.driver = device.report().driver;
     report.samples = result.film.samples;
@@ -67,7 +72,8 @@ int render(const RenderOptions& options) {
     const NamedScene source = loadScene(options.source);
     const Shot shot = chooseShot(source, options.source.camera, options.size);
     RenderReport report;
-    report.load_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - load_start).count();
+    report.load_seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - load_start).count();
     report.scene = options.source.scene;
     report.camera = shot.camera_name;
     report.size = shot.size;
@@ -99,7 +105,8 @@ int render(const RenderOptions& options) {
         if (isExr(output))
             writeExr(output, exrPicture(result.film, options.layers, reportAttributes(report)));
         else
-            writePng(output, opaquePicture(renderer.readDisplay(options.tonemap, static_cast<float>(exposure))));
+            writePng(output,
+                     opaquePicture(renderer.readDisplay(options.tonemap, static_cast<float>(exposure))));
         if (!options.quiet) fmt::print("wrote {} ({}x{})\n", output.string(), shot.size.x, shot.size.y);
     }
     report.statistics = renderer.statistics();
@@ -110,7 +117,8 @@ int render(const RenderOptions& options) {
         writeFile(*options.report, std::as_bytes(std::span(json)));
     }
     if (!options.quiet) fmt::print("{}\n", reportLine(report));
-    if (result.stopped_by == Stop::interrupt) fmt::print(stderr, "licht: interrupted: wrote what was there, {}\n", reportLine(report));
+    if (result.stopped_by == Stop::interrupt)
+        fmt::print(stderr, "licht: interrupted: wrote what was there, {}\n", reportLine(report));
     return device.validationMessages().empty() ? 0 : 1;
 }
 

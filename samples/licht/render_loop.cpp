@@ -24,7 +24,8 @@ ProgressState progressOf(const StopRules& rules, const Advance& advance) {
 
 }  // namespace
 
-LoopResult renderUntil(Renderer& renderer, const StopRules& rules, const InterruptWatch& interrupt, ProgressLine& progress) {
+LoopResult renderUntil(Renderer& renderer, const StopRules& rules, const InterruptWatch& interrupt,
+                       ProgressLine& progress) {
     LoopResult result;
     Advance advance;
     ErrorSchedule schedule(rules.error);

@@ -10,11 +10,12 @@ struct LoopResult {
     Stop stopped_by = Stop::none;
     double first_image_seconds = 0.0;  ///< from process start to the first complete picture
     double render_seconds = 0.0;
-    double error = -1.0;               ///< of the film below; negative: unknown
+    double error = -1.0;  ///< of the film below; negative: unknown
     Film film;
 };
 
 /// Renders sample after sample until a rule is met; at least one.
-LoopResult renderUntil(Renderer& renderer, const StopRules& rules, const InterruptWatch& interrupt, ProgressLine& progress);
+LoopResult renderUntil(Renderer& renderer, const StopRules& rules, const InterruptWatch& interrupt,
+                       ProgressLine& progress);
 
 }  // namespace licht

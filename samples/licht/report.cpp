@@ -13,7 +13,8 @@ using nlohmann::ordered_json;
 ordered_json notesJson(const std::vector<SceneNote>& notes) {
     ordered_json list = ordered_json::array();
     for (const SceneNote& note : notes)
-        list.push_back({{"kind", note.kind == SceneNote::Kind::warning ? "warning" : "skipped"}, {"text", note.text}});
+        list.push_back(
+            {{"kind", note.kind == SceneNote::Kind::warning ? "warning" : "skipped"}, {"text", note.text}});
     return list;
 }
 
@@ -54,16 +55,22 @@ std::string reportJson(const RenderReport& report) {
                        {"render", report.render_seconds},
                        {"total", report.total_seconds}};
     json["passes"] = passesJson(statistics);
-    json["rays"] = {{"primary", statistics.primary_rays}, {"bounce", statistics.bounce_rays}, {"shadow", statistics.shadow_rays}};
-    json["rays_per_second"] = report.render_seconds > 0.0 ? static_cast<double>(report.rays()) / report.render_seconds : 0.0;
+    json["rays"] = {{"primary", statistics.primary_rays},
+                    {"bounce", statistics.bounce_rays},
+                    {"shadow", statistics.shadow_rays}};
+    json["rays_per_second"] =
+        report.render_seconds > 0.0 ? static_cast<double>(report.rays()) / report.render_seconds : 0.0;
     json["relative_error"] = report.error >= 0.0 ? ordered_json(report.error) : ordered_json(nullptr);
     json["nonfinite_samples"] = statistics.nonfinite_samples;
+    json["cut_walks"] = statistics.cut_walks;
     json["effects"] = report.effects;
-    json["memory"] = {{"host_peak_bytes", report.host_peak_bytes}, {"device_bytes", report.device_peak_bytes}};
+    json["memory"] = {{"host_peak_bytes", report.host_peak_bytes},
+                      {"device_bytes", report.device_peak_bytes}};
     json["notes"] = notesJson(report.notes);
     json["outputs"] = ordered_json::array();
     for (const auto& output : report.outputs) json["outputs"].push_back(output.string());
-    // File names and scene texts may be any bytes; what is not UTF-8 is replaced, so that the report is always valid JSON.
+    // File names and scene texts may be any bytes; what is not UTF-8 is replaced, so that the report is
+    // always valid JSON.
     return json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 
@@ -82,7 +89,8 @@ std::vector<std::pair<std::string, std::string>> reportAttributes(const RenderRe
 }
 
 std::string reportLine(const RenderReport& report) {
-    std::string line = fmt::format("{} {} in {:.2f} s", report.samples, report.samples == 1 ? "sample" : "samples", report.render_seconds);
+    std::string line = fmt::format("{} {} in {:.2f} s", report.samples,
+                                   report.samples == 1 ? "sample" : "samples", report.render_seconds);
     if (report.error >= 0.0) line += fmt::format(", relative error {:.3g}", report.error);
     return line;
 }

@@ -25,8 +25,8 @@ struct RenderReport {
     double load_seconds = 0.0;
     double first_image_seconds = 0.0;  ///< from process start
     double render_seconds = 0.0;
-    double total_seconds = 0.0;        ///< from process start until the pictures were written
-    double error = -1.0;               ///< negative: unknown
+    double total_seconds = 0.0;  ///< from process start until the pictures were written
+    double error = -1.0;         ///< negative: unknown
     RenderStatistics statistics;
     std::vector<std::string> effects;
     std::uint64_t host_peak_bytes = 0;
@@ -34,7 +34,9 @@ struct RenderReport {
     std::vector<SceneNote> notes;
     std::vector<std::filesystem::path> outputs;
 
-    [[nodiscard]] std::uint64_t rays() const { return statistics.primary_rays + statistics.bounce_rays + statistics.shadow_rays; }
+    [[nodiscard]] std::uint64_t rays() const {
+        return statistics.primary_rays + statistics.bounce_rays + statistics.shadow_rays;
+    }
 };
 
 /// The most memory this process ever held.

@@ -23,21 +23,27 @@ constexpr std::uint32_t kDefaultWidth = 960;
 constexpr uvec2 kTestSceneSize{512, 512};
 
 /// The square test scenes are drawn at the size their references have.
-bool isTestScene(const NamedScene& source) { return source.builtin && (source.name == "cornell" || source.name == "furnace"); }
+bool isTestScene(const NamedScene& source) {
+    return source.builtin && (source.name == "cornell" || source.name == "furnace");
+}
 
 [[noreturn]] void refuseScene(const std::string& source) {
     std::error_code ignored;
     const std::filesystem::path path(source);
-    if (std::filesystem::is_directory(path, ignored)) throw InputError(fmt::format("{}: is a folder, not a scene", source));
-    if (std::filesystem::exists(path, ignored)) throw InputError(fmt::format("{}: a scene file ends in .gltf or .glb", source));
+    if (std::filesystem::is_directory(path, ignored))
+        throw InputError(fmt::format("{}: is a folder, not a scene", source));
+    if (std::filesystem::exists(path, ignored))
+        throw InputError(fmt::format("{}: a scene file ends in .gltf or .glb", source));
     std::string names;
-    for (const BuiltinScene& scene : builtinScenes()) names += fmt::format("{}{}", names.empty() ? "" : ", ", scene.name);
-    throw InputError(fmt::format("{}: no such scene: neither a .gltf or .glb file nor built in ({})", source, names));
+    for (const BuiltinScene& scene : builtinScenes())
+        names += fmt::format("{}{}", names.empty() ? "" : ", ", scene.name);
+    throw InputError(
+        fmt::format("{}: no such scene: neither a .gltf or .glb file nor built in ({})", source, names));
 }
 
 std::optional<std::size_t> findCamera(const Scene& scene, const std::string& wanted) {
-    const auto named =
-        std::find_if(scene.cameras.begin(), scene.cameras.end(), [&](const Camera& camera) { return camera.name == wanted; });
+    const auto named = std::find_if(scene.cameras.begin(), scene.cameras.end(),
+                                    [&](const Camera& camera) { return camera.name == wanted; });
     if (named != scene.cameras.end()) return static_cast<std::size_t>(named - scene.cameras.begin());
     std::size_t index = 0;
     const char* end = wanted.data() + wanted.size();
@@ -50,14 +56,16 @@ std::optional<std::size_t> findCamera(const Scene& scene, const std::string& wan
     std::string known;
     for (std::size_t i = 0; i < source.scene.cameras.size(); ++i)
         known += fmt::format("{}{} '{}'", i == 0 ? "" : ", ", i, source.scene.cameras[i].name);
-    throw InputError(fmt::format("{}: no camera '{}'; the scene has {}", source.name, wanted, known.empty() ? "none" : known));
+    throw InputError(fmt::format("{}: no camera '{}'; the scene has {}", source.name, wanted,
+                                 known.empty() ? "none" : known));
 }
 
 uvec2 defaultSize(const NamedScene& source, const Camera* camera) {
     if (isTestScene(source)) return kTestSceneSize;
     if (camera == nullptr || !(camera->aspect > 0.0F)) return {kDefaultWidth, kDefaultHeight};
     const float width = std::round(static_cast<float>(kDefaultHeight) * camera->aspect);
-    return {static_cast<std::uint32_t>(std::clamp(width, 1.0F, static_cast<float>(kMaxPictureSide))), kDefaultHeight};
+    return {static_cast<std::uint32_t>(std::clamp(width, 1.0F, static_cast<float>(kMaxPictureSide))),
+            kDefaultHeight};
 }
 
 }  // namespace
@@ -75,20 +83,24 @@ NamedScene loadScene(const SceneRequest& request) {
     Scene& scene = source.scene;
     if (request.environment) {
         std::size_t replaced = 0;
-        scene.environment = Environment{*request.environment, readRadianceMap(*request.environment, &replaced)};
+        scene.environment =
+            Environment{*request.environment, readRadianceMap(*request.environment, &replaced)};
         if (replaced > 0)
-            scene.notes.push_back({SceneNote::Kind::warning, fmt::format("{}: {} texels that were negative or not finite became 0",
-                                                                         *request.environment, replaced)});
+            scene.notes.push_back({SceneNote::Kind::warning,
+                                   fmt::format("{}: {} texels that were negative or not finite became 0",
+                                               *request.environment, replaced)});
     } else if (request.background) {
         scene.environment = constantEnvironment(*request.background);
     } else if (isDark(scene)) {
         scene.environment = constantEnvironment(vec3(1.0F));
-        scene.notes.push_back({SceneNote::Kind::warning, "nothing in the scene gives light: lit by a neutral sky of 1 cd/m^2"});
+        scene.notes.push_back(
+            {SceneNote::Kind::warning, "nothing in the scene gives light: lit by a neutral sky of 1 cd/m^2"});
     }
     return source;
 }
 
-Shot chooseShot(const NamedScene& source, const std::optional<std::string>& camera, std::optional<uvec2> size) {
+Shot chooseShot(const NamedScene& source, const std::optional<std::string>& camera,
+                std::optional<uvec2> size) {
     const Scene& scene = source.scene;
     std::optional<std::size_t> index;
     if (camera) {
@@ -103,7 +115,8 @@ Shot chooseShot(const NamedScene& source, const std::optional<std::string>& came
         shot.camera = scene.cameras[*index];
         shot.camera_name = shot.camera.name.empty() ? std::to_string(*index) : shot.camera.name;
     } else {
-        shot.camera = framingCamera(sceneBounds(scene), static_cast<float>(shot.size.x) / static_cast<float>(shot.size.y));
+        shot.camera = framingCamera(sceneBounds(scene),
+                                    static_cast<float>(shot.size.x) / static_cast<float>(shot.size.y));
         shot.camera_name = "framing";
     }
     return shot;
@@ -111,7 +124,8 @@ Shot chooseShot(const NamedScene& source, const std::optional<std::string>& came
 
 void printWarnings(const Scene& scene) {
     for (const SceneNote& note : scene.notes)
-        if (note.kind == SceneNote::Kind::warning) fmt::print(stderr, "licht: warning: {}\n", oneLine(note.text));
+        if (note.kind == SceneNote::Kind::warning)
+            fmt::print(stderr, "licht: warning: {}\n", oneLine(note.text));
 }
 
 }  // namespace licht

@@ -15,7 +15,8 @@ struct NamedScene {
 };
 NamedScene loadNamedScene(const std::string& source);
 
-/// The scene as asked for, with its sky. A scene in which nothing gives light gets a neutral sky, unless a sky was asked for; a note says so.
+/// The scene as asked for, with its sky. A scene in which nothing gives light gets a neutral sky, unless a
+/// sky was asked for; a note says so.
 NamedScene loadScene(const SceneRequest& request);
 
 /// From where a scene is seen, and in which size.
@@ -24,7 +25,8 @@ struct Shot {
     std::string camera_name;  ///< its name or index; "framing" where the scene has none
     uvec2 size{0};
 };
-Shot chooseShot(const NamedScene& source, const std::optional<std::string>& camera, std::optional<uvec2> size);
+Shot chooseShot(const NamedScene& source, const std::optional<std::string>& camera,
+                std::optional<uvec2> size);
 
 /// Warnings of loading, one line each on stderr.
 void printWarnings(const Scene& scene);

@@ -13,11 +13,16 @@ constexpr double kShareForChecks = 0.05;
 
 std::string_view stopName(Stop stop) {
     switch (stop) {
-        case Stop::none: return "none";
-        case Stop::samples: return "spp";
-        case Stop::time: return "time";
-        case Stop::error: return "error";
-        case Stop::interrupt: return "interrupt";
+        case Stop::none:
+            return "none";
+        case Stop::samples:
+            return "spp";
+        case Stop::time:
+            return "time";
+        case Stop::error:
+            return "error";
+        case Stop::interrupt:
+            return "interrupt";
     }
     return "none";
 }
@@ -25,7 +30,8 @@ std::string_view stopName(Stop stop) {
 Stop decideStop(const StopRules& rules, const Advance& advance) {
     if (advance.samples == 0) return Stop::none;
     if (advance.samples >= rules.samples) return Stop::samples;
-    if (rules.error && advance.error >= 0.0 && advance.error <= *rules.error && advance.error_samples >= kFewestSamplesToTrust)
+    if (rules.error && advance.error >= 0.0 && advance.error <= *rules.error &&
+        advance.error_samples >= kFewestSamplesToTrust)
         return Stop::error;
     if (rules.seconds && advance.seconds >= *rules.seconds) return Stop::time;
     if (advance.interrupted) return Stop::interrupt;
@@ -43,7 +49,8 @@ double secondsLeft(const StopRules& rules, const Advance& advance) {
     const double seconds_per_sample = advance.seconds / advance.samples;
     double samples_wanted = rules.samples;
     if (rules.error)
-        if (const auto needed = samplesToReach(*rules.error, advance)) samples_wanted = std::min(samples_wanted, *needed);
+        if (const auto needed = samplesToReach(*rules.error, advance))
+            samples_wanted = std::min(samples_wanted, *needed);
 
     const bool open_ended = samples_wanted == std::numeric_limits<std::uint32_t>::max();
     double left = open_ended ? -1.0 : std::max(0.0, (samples_wanted - advance.samples) * seconds_per_sample);
@@ -65,7 +72,8 @@ void ErrorSchedule::checked(const Advance& advance, double cost) {
     earliest_seconds_ = (spent_ + cost) / kShareForChecks;
     const double twice = 2.0 * advance.samples;
     const auto needed = wanted_error_ ? samplesToReach(*wanted_error_, advance) : std::nullopt;
-    next_samples_ = needed ? std::min(std::ceil(std::max<double>(*needed, kFewestSamplesToTrust)), twice) : twice;
+    next_samples_ =
+        needed ? std::min(std::ceil(std::max<double>(*needed, kFewestSamplesToTrust)), twice) : twice;
     next_samples_ = std::max(next_samples_, advance.samples + 1.0);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
-// When a picture is done, when to look at its error, and how long it will take. Pure values, no clock of their own.
+// When a picture is done, when to look at its error, and how long it will take. Pure values, no clock of
+// their own.
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -23,24 +24,27 @@ struct StopRules {
 struct Advance {
     std::uint32_t samples = 0;
     double seconds = 0.0;
-    double error = -1.0;               ///< relative; negative while unknown
-    std::uint32_t error_samples = 0;   ///< how many samples the error was estimated from
+    double error = -1.0;              ///< relative; negative while unknown
+    std::uint32_t error_samples = 0;  ///< how many samples the error was estimated from
     bool interrupted = false;
 };
 
-/// Estimates from fewer samples per pixel are shown but end nothing: a pixel that has not met its light yet looks free of error.
+/// Estimates from fewer samples per pixel are shown but end nothing: a pixel that has not met its light yet
+/// looks free of error.
 inline constexpr std::uint32_t kFewestSamplesToTrust = 8;
 
 Stop decideStop(const StopRules& rules, const Advance& advance);
 
-/// Samples until the error is reached, as it falls with 1/sqrt(samples): n (error / wanted)^2. Nothing while the error is unknown.
+/// Samples until the error is reached, as it falls with 1/sqrt(samples): n (error / wanted)^2. Nothing while
+/// the error is unknown.
 std::optional<double> samplesToReach(double wanted_error, const Advance& advance);
 
 /// Forecast of the seconds until the first rule is met; negative when none can be told.
 double secondsLeft(const StopRules& rules, const Advance& advance);
 
-/// Reading the film to estimate its error stalls the device. This says when it is worth it: at sample counts that double, at the count
-/// where the wanted error is forecast, at least every two seconds, and never for more than a twentieth of the time.
+/// Reading the film to estimate its error stalls the device. This says when it is worth it: at sample counts
+/// that double, at the count where the wanted error is forecast, at least every two seconds, and never for
+/// more than a twentieth of the time.
 class ErrorSchedule {
 public:
     explicit ErrorSchedule(std::optional<double> wanted_error) : wanted_error_(wanted_error) {}

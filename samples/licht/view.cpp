@@ -15,7 +15,8 @@ namespace licht {
 namespace {
 
 constexpr double kSecondsBetweenTitles = 0.5;
-constexpr double kSecondsAsleep = 0.1;  ///< between looks at a window that cannot be drawn on, or a picture that is done
+constexpr double kSecondsAsleep =
+    0.1;  ///< between looks at a window that cannot be drawn on, or a picture that is done
 
 /// Since the picture last started anew.
 struct Accumulation {
@@ -43,7 +44,8 @@ void estimateError(Renderer& renderer, const Window& window, Accumulation& accum
 }  // namespace
 
 int view(const ViewOptions& options) {
-    if (!Window::available()) throw InputError("no display to open a window on: use 'licht render' for pictures in files");
+    if (!Window::available())
+        throw InputError("no display to open a window on: use 'licht render' for pictures in files");
     const NamedScene source = loadScene(options.source);
     const Shot shot = chooseShot(source, options.source.camera, options.size);
     printWarnings(source.scene);
@@ -64,10 +66,12 @@ int view(const ViewOptions& options) {
     Accumulation accumulation{window.seconds(), {}, ErrorSchedule{std::nullopt}};
     double titled = 0.0;
     InputState input;
-    for (std::uint64_t frame = 0; !window.shouldClose() && (options.frames == 0 || frame < options.frames); ++frame) {
+    for (std::uint64_t frame = 0; !window.shouldClose() && (options.frames == 0 || frame < options.frames);
+         ++frame) {
         const uvec2 pixels = window.framebufferSize();
         const bool visible = pixels.x > 0 && pixels.y > 0;
-        const bool full = renderer.samples() == std::numeric_limits<std::uint32_t>::max() - settings.first_sample;
+        const bool full =
+            renderer.samples() == std::numeric_limits<std::uint32_t>::max() - settings.first_sample;
         input = visible && !full ? window.poll() : window.waitAndPoll(kSecondsAsleep);
         if (!visible) continue;
 
@@ -80,7 +84,8 @@ int view(const ViewOptions& options) {
             settings.size = pixels;
         }
         renderer.setCamera(state.orbit.camera());
-        if (renderer.samples() < samples_before) accumulation = {window.seconds(), {}, ErrorSchedule{std::nullopt}};
+        if (renderer.samples() < samples_before)
+            accumulation = {window.seconds(), {}, ErrorSchedule{std::nullopt}};
 
         if (!full) renderer.renderSample();
         swapchain.present(renderer.displayImage(), [&](gpu::Commands& commands) {
@@ -89,7 +94,8 @@ int view(const ViewOptions& options) {
         Advance& advance = accumulation.advance;
         advance.samples = renderer.samples();
         advance.seconds = window.seconds() - accumulation.started;
-        if (accumulation.schedule.due(advance.samples, advance.seconds)) estimateError(renderer, window, accumulation);
+        if (accumulation.schedule.due(advance.samples, advance.seconds))
+            estimateError(renderer, window, accumulation);
         if (window.seconds() - titled >= kSecondsBetweenTitles) {
             window.setTitle(title(source.name, accumulation, state));
             titled = window.seconds();

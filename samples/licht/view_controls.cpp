@@ -6,17 +6,19 @@
 namespace licht {
 namespace {
 
-constexpr float kRadiansPerHeight = kPi;    ///< a drag over the window's height is half a turn
-constexpr float kFactorPerNotch = 0.9F;     ///< of the distance, for a notch of the wheel
-constexpr float kStep = 0.1F;               ///< of the distance, for a key
-constexpr double kExposureStep = 0.25;      ///< EV
+constexpr float kRadiansPerHeight = kPi;  ///< a drag over the window's height is half a turn
+constexpr float kFactorPerNotch = 0.9F;   ///< of the distance, for a notch of the wheel
+constexpr float kStep = 0.1F;             ///< of the distance, for a key
+constexpr double kExposureStep = 0.25;    ///< EV
 constexpr std::array kTonemaps{Tonemap::none, Tonemap::neutral, Tonemap::agx, Tonemap::aces};
 
 // The plus sign shares its key with = on some keyboards and stands alone on others.
 constexpr int kKeypadMinus = 333;
 constexpr int kKeypadPlus = 334;
 
-Tonemap next(Tonemap curve) { return kTonemaps[(static_cast<std::size_t>(curve) + 1) % kTonemaps.size()]; }
+Tonemap next(Tonemap curve) {
+    return kTonemaps[(static_cast<std::size_t>(curve) + 1) % kTonemaps.size()];
+}
 
 }  // namespace
 
@@ -29,21 +31,40 @@ ViewState applyInput(ViewState state, const ViewState& start, const InputState& 
     if (input.dolly != 0.0F) state.orbit.dolly(std::pow(kFactorPerNotch, input.dolly));
     for (const int key : input.keys_pressed) {
         switch (key) {
-            case 'W': state.orbit.walk(0.0F, kStep); break;
-            case 'S': state.orbit.walk(0.0F, -kStep); break;
-            case 'D': state.orbit.walk(kStep, 0.0F); break;
-            case 'A': state.orbit.walk(-kStep, 0.0F); break;
-            case 'R': state.orbit = start.orbit; break;
-            case 'T': state.tonemap = next(state.tonemap); break;
+            case 'W':
+                state.orbit.walk(0.0F, kStep);
+                break;
+            case 'S':
+                state.orbit.walk(0.0F, -kStep);
+                break;
+            case 'D':
+                state.orbit.walk(kStep, 0.0F);
+                break;
+            case 'A':
+                state.orbit.walk(-kStep, 0.0F);
+                break;
+            case 'R':
+                state.orbit = start.orbit;
+                break;
+            case 'T':
+                state.tonemap = next(state.tonemap);
+                break;
             case '+':
             case '=':
             case kKeypadPlus:
-            case kKeyUp: state.exposure += kExposureStep; break;
+            case kKeyUp:
+                state.exposure += kExposureStep;
+                break;
             case '-':
             case kKeypadMinus:
-            case kKeyDown: state.exposure -= kExposureStep; break;
-            case kKeyEscape: state.quit = true; break;
-            default: break;
+            case kKeyDown:
+                state.exposure -= kExposureStep;
+                break;
+            case kKeyEscape:
+                state.quit = true;
+                break;
+            default:
+                break;
         }
     }
     return state;

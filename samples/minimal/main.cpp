@@ -20,7 +20,8 @@ static Scene lampOverFloor() {
     scene.meshes.assign(2, square);
     scene.meshes[1].material = 1;
     const mat4 flipped = glm::rotate(glm::translate(mat4(1.0F), vec3(0, 1.5F, 0)), kPi, vec3(1, 0, 0));
-    scene.instances = {{"floor", 0, glm::scale(mat4(1.0F), vec3(4.0F))}, {"lamp", 1, flipped}};
+    scene.instances = {{"floor", 0, glm::scale(mat4(1.0F), vec3(2.0F))},
+                       {"lamp", 1, glm::scale(flipped, vec3(0.25F))}};
     return scene;
 }
 
@@ -28,7 +29,8 @@ int main(int argument_count, char** arguments) try {
     const Scene scene = argument_count > 1 ? loadGltf(arguments[1]) : lampOverFloor();
     RenderSettings settings;
     settings.size = {320, 180};
-    const Camera camera = scene.cameras.empty() ? framingCamera(sceneBounds(scene), 16.0F / 9.0F) : scene.cameras[0];
+    const Camera camera =
+        scene.cameras.empty() ? framingCamera(sceneBounds(scene), 16.0F / 9.0F) : scene.cameras[0];
     gpu::Device device(gpu::DeviceOptions{});
     Renderer renderer(device, scene, camera, settings);
     for (int sample = 0; sample < 16; ++sample) renderer.renderSample();

@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "licht/scenes/assembly.h"
 #include "licht/scenes/builtin_scenes.h"
 #include "licht/scenes/shapes.h"
 

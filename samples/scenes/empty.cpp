@@ -1,5 +1,5 @@
+#include "licht/scenes/assembly.h"
 #include "licht/scenes/builtin_scenes.h"
-#include "licht/scenes/shapes.h"
 
 namespace licht {
 

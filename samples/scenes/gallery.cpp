@@ -1,7 +1,7 @@
 #include "licht/scenes/gallery.h"
 
+#include "licht/scenes/assembly.h"
 #include "licht/scenes/builtin_scenes.h"
-#include "licht/scenes/shapes.h"
 
 namespace licht {
 

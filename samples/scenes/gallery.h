@@ -32,6 +32,9 @@ void addLamps(Scene& scene, const Materials& materials);
 /// A clear late afternoon: the sun low behind the window, hills below it.
 Environment afternoonSky();
 
+/// Lays wood grain along an axis (0 to 2) of the mesh, one unit of texture a metre.
+Mesh grainAlong(Mesh mesh, int axis);
+
 /// A cylinder from one point to another.
 void placeBar(Scene& scene, const char* name, std::uint32_t material, const vec3& from, const vec3& to,
               float radius);

@@ -1,4 +1,5 @@
 // Pictures, sculpture and the mirror.
+#include "licht/scenes/assembly.h"
 #include "licht/scenes/gallery.h"
 #include "licht/scenes/shapes.h"
 

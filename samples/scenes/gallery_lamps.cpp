@@ -1,6 +1,7 @@
 // Lamps: emissive spheres, shades that shine faintly, and the spot lights of the pictures.
 #include <cmath>
 
+#include "licht/scenes/assembly.h"
 #include "licht/scenes/gallery.h"
 #include "licht/scenes/shapes.h"
 

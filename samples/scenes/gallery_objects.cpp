@@ -2,18 +2,12 @@
 #include <cmath>
 #include <vector>
 
+#include "licht/scenes/assembly.h"
 #include "licht/scenes/gallery.h"
 #include "licht/scenes/shapes.h"
 
 namespace licht::gallery {
 namespace {
-
-/// Lays the grain over a mesh from above instead of around it.
-Mesh grainFromAbove(Mesh mesh) {
-    for (std::size_t k = 0; k < mesh.positions.size(); ++k)
-        mesh.uv_sets[0][k] = {mesh.positions[k].x, mesh.positions[k].z};
-    return mesh;
-}
 
 Mesh vase(const char* name, std::uint32_t material, const std::vector<vec2>& outline) {
     return latheMesh(name, material, smoothProfile(outline, 6), 40);
@@ -36,16 +30,17 @@ void addTable(Scene& scene, const Materials& m) {
     const vec3 foot{-0.2F, 0.015F, -0.85F};
     constexpr float kTop = 0.40F;
     place(scene,
-          grainFromAbove(latheMesh("table top", m.walnut,
-                                   smoothProfile({{0.0F, 0.0F},
-                                                  {0.50F, 0.0F},
-                                                  {0.55F, 0.012F},
-                                                  {0.56F, 0.022F},
-                                                  {0.55F, 0.032F},
-                                                  {0.53F, 0.035F},
-                                                  {0.0F, 0.035F}},
-                                                 3),
-                                   72)),
+          grainAlong(latheMesh("table top", m.walnut,
+                               smoothProfile({{0.0F, 0.0F},
+                                              {0.50F, 0.0F},
+                                              {0.55F, 0.012F},
+                                              {0.56F, 0.022F},
+                                              {0.55F, 0.032F},
+                                              {0.53F, 0.035F},
+                                              {0.0F, 0.035F}},
+                                             3),
+                               72),
+                     2),
           moved(foot + vec3(0, kTop - 0.035F, 0)));
     for (int k = 0; k < 3; ++k) {
         const float angle = 2.0F * kPi * (static_cast<float>(k) + 0.25F) / 3.0F;
@@ -129,7 +124,7 @@ void addArmchair(Scene& scene, const Materials& m) {
 
 void addBench(Scene& scene, const Materials& m) {
     const vec3 middle{-0.55F, 0.0F, -4.22F};
-    place(scene, roundedBoxMesh("bench", m.oak, {1.9F, 0.06F, 0.46F}, 0.015F, 2),
+    place(scene, grainAlong(roundedBoxMesh("bench", m.oak, {1.9F, 0.06F, 0.46F}, 0.015F, 2), 0),
           moved(middle + vec3(0, 0.39F, 0)));
     for (const float side : {-1.0F, 1.0F}) {
         place(scene, roundedBoxMesh("bench leg", m.oak, {0.06F, 0.37F, 0.42F}, 0.012F, 1),

@@ -1,6 +1,7 @@
 // A pot plant: leaves are curved sheets whose outline is cut by alpha.
 #include <cmath>
 
+#include "licht/scenes/assembly.h"
 #include "licht/scenes/gallery.h"
 #include "licht/scenes/pattern.h"
 #include "licht/scenes/shapes.h"

@@ -1,8 +1,10 @@
 // Walls, floor, ceiling, window and the passage behind the arch. Walls are solid, so that daylight enters
 // through the window alone.
-#include <array>
 #include <cmath>
+#include <cstddef>
+#include <utility>
 
+#include "licht/scenes/assembly.h"
 #include "licht/scenes/gallery.h"
 #include "licht/scenes/gallery_textures.h"
 #include "licht/scenes/shapes.h"
@@ -33,6 +35,12 @@ constexpr float kPassageCorner = -5.5F;
 
 void addBox(Scene& scene, const char* name, std::uint32_t material, const vec3& lower, const vec3& upper) {
     place(scene, boxMesh(name, material, lower, upper));
+}
+
+/// A wooden bar with its grain along its length.
+void addBeam(Scene& scene, const char* name, std::uint32_t material, int axis, const vec3& lower,
+             const vec3& upper) {
+    place(scene, grainAlong(boxMesh(name, material, lower, upper), axis));
 }
 
 /// A level quad facing up whose uv are metres turned by `angle` and divided by `tile`.
@@ -89,10 +97,11 @@ void addWindow(Scene& scene, const Materials& m) {
     }
     for (const float y : {kWindow.sill, 2.05F, kWindow.lintel - kBar})
         bar({y, kWindow.back}, {y + kBar, kWindow.front});
-    place(
-        scene,
-        roundedBoxMesh("window sill", m.oak, {0.34F, 0.05F, kWindow.front - kWindow.back + 0.2F}, 0.015F, 2),
-        moved({kLower.x + 0.02F, kWindow.sill - 0.02F, 0.5F * (kWindow.front + kWindow.back)}));
+    place(scene,
+          grainAlong(roundedBoxMesh("window sill", m.oak, {0.34F, 0.05F, kWindow.front - kWindow.back + 0.2F},
+                                    0.015F, 2),
+                     2),
+          moved({kLower.x + 0.02F, kWindow.sill - 0.02F, 0.5F * (kWindow.front + kWindow.back)}));
     for (const float z : {kWindow.front + 0.45F, kWindow.back + 0.3F}) {
         place(scene, curtainMesh("curtain", m.linen, {0.7F, 2.78F}, 7, 0.045F),
               moved({kLower.x + 0.13F, 0.03F, z}, 0.5F * kPi));
@@ -102,6 +111,14 @@ void addWindow(Scene& scene, const Materials& m) {
 }
 
 }  // namespace
+
+Mesh grainAlong(Mesh mesh, int axis) {
+    for (std::size_t k = 0; k < mesh.positions.size(); ++k) {
+        const vec3 p = mesh.positions[k];
+        mesh.uv_sets[0][k] = {p[(axis + 1) % 3] + p[(axis + 2) % 3], p[axis]};
+    }
+    return mesh;
+}
 
 void placeBar(Scene& scene, const char* name, std::uint32_t material, const vec3& from, const vec3& to,
               float radius) {
@@ -121,8 +138,8 @@ void addRoom(Scene& scene, const Materials& m) {
            {kUpper.x + t, kUpper.y + t, kUpper.z + t});
     for (int k = 0; k < 5; ++k) {
         const float z = -3.9F + 1.5F * static_cast<float>(k);
-        addBox(scene, "beam", m.dark_wood, {kLower.x, kUpper.y - 0.2F, z - 0.07F},
-               {kUpper.x, kUpper.y + 0.01F, z + 0.07F});
+        addBeam(scene, "beam", m.dark_wood, 0, {kLower.x, kUpper.y - 0.2F, z - 0.07F},
+                {kUpper.x, kUpper.y + 0.01F, z + 0.07F});
     }
     addBox(scene, "right wall", m.plaster, {kUpper.x, -t, kLower.z - t},
            {kUpper.x + t, kUpper.y + t, kUpper.z + t});
@@ -156,10 +173,10 @@ void addRoom(Scene& scene, const Materials& m) {
     const float arch_left = kArchCentre - kArchRadius;
     const float arch_right = kArchCentre + kArchRadius;
     for (const vec2& span : {vec2(kLower.x, arch_left), vec2(arch_right, kUpper.x)}) {
-        addBox(scene, "skirting", m.oak, {span.x, 0.0F, kLower.z}, {span.y, 0.1F, kLower.z + 0.02F});
+        addBeam(scene, "skirting", m.oak, 0, {span.x, 0.0F, kLower.z}, {span.y, 0.1F, kLower.z + 0.02F});
     }
-    addBox(scene, "skirting", m.oak, {kUpper.x - 0.02F, 0.0F, kLower.z}, {kUpper.x, 0.1F, kUpper.z});
-    addBox(scene, "skirting", m.oak, {kLower.x, 0.0F, kLower.z}, {kLower.x + 0.02F, 0.1F, kUpper.z});
+    addBeam(scene, "skirting", m.oak, 2, {kUpper.x - 0.02F, 0.0F, kLower.z}, {kUpper.x, 0.1F, kUpper.z});
+    addBeam(scene, "skirting", m.oak, 2, {kLower.x, 0.0F, kLower.z}, {kLower.x + 0.02F, 0.1F, kUpper.z});
 }
 
 void addPassage(Scene& scene, const Materials& m) {

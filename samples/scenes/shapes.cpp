@@ -237,9 +237,17 @@ Mesh coneMesh(std::string name, std::uint32_t material, float lower_radius, floa
     const vec2 lower{lower_radius, 0};
     const vec2 upper{upper_radius, height};
     std::vector<vec2> profile;
-    if (lower_radius > 0.0F) profile.insert(profile.end(), {{0, 0}, lower});
-    profile.insert(profile.end(), {lower, upper});
-    if (upper_radius > 0.0F) profile.insert(profile.end(), {upper, {0, height}});
+    // The rim of each end is a crease; an end of no radius is a tip and has none.
+    if (lower_radius > 0.0F) {
+        profile.emplace_back(0.0F, 0.0F);
+        profile.push_back(lower);
+    }
+    profile.push_back(lower);
+    profile.push_back(upper);
+    if (upper_radius > 0.0F) {
+        profile.push_back(upper);
+        profile.emplace_back(0.0F, height);
+    }
     return latheMesh(std::move(name), material, profile, segments);
 }
 
@@ -268,41 +276,6 @@ void appendMesh(Mesh& whole, const Mesh& part, const mat4& whole_from_part) {
         whole.uv_sets[0].push_back(part.uv_sets[0][k]);
     }
     for (const uvec3& triangle : part.triangles) whole.triangles.push_back(triangle + first);
-}
-
-std::uint32_t addTexture(Scene& scene, Texture texture) {
-    scene.textures.push_back(std::move(texture));
-    return static_cast<std::uint32_t>(scene.textures.size() - 1);
-}
-
-std::uint32_t addMaterial(Scene& scene, Material material) {
-    scene.materials.push_back(std::move(material));
-    return static_cast<std::uint32_t>(scene.materials.size() - 1);
-}
-
-std::uint32_t addMesh(Scene& scene, Mesh mesh) {
-    scene.meshes.push_back(std::move(mesh));
-    return static_cast<std::uint32_t>(scene.meshes.size() - 1);
-}
-
-void place(Scene& scene, std::uint32_t mesh, const mat4& world_from_object) {
-    scene.instances.push_back({scene.meshes[mesh].name, mesh, world_from_object});
-}
-
-void place(Scene& scene, Mesh mesh, const mat4& world_from_object) {
-    place(scene, addMesh(scene, std::move(mesh)), world_from_object);
-}
-
-mat4 moved(const vec3& position, float yaw) {
-    return glm::rotate(glm::translate(mat4(1.0F), position), yaw, vec3(0, 1, 0));
-}
-
-Camera lookingCamera(std::string name, const vec3& eye, const vec3& target, float y_fov) {
-    Camera camera;
-    camera.name = std::move(name);
-    camera.world_from_view = glm::inverse(glm::lookAt(eye, target, vec3(0, 1, 0)));
-    camera.y_fov = y_fov;
-    return camera;
 }
 
 }  // namespace licht

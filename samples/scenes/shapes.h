@@ -77,20 +77,4 @@ Mesh curtainMesh(std::string name, std::uint32_t material, const vec2& size, std
 /// Appends triangles and vertices of `part`, which must have the same material.
 void appendMesh(Mesh& whole, const Mesh& part, const mat4& whole_from_part = mat4(1.0F));
 
-/// Adds to a scene and gives the index.
-std::uint32_t addTexture(Scene& scene, Texture texture);
-std::uint32_t addMaterial(Scene& scene, Material material);
-std::uint32_t addMesh(Scene& scene, Mesh mesh);
-
-/// Places a mesh that is there already, under the mesh's name.
-void place(Scene& scene, std::uint32_t mesh, const mat4& world_from_object = mat4(1.0F));
-/// Adds a mesh and places it once.
-void place(Scene& scene, Mesh mesh, const mat4& world_from_object = mat4(1.0F));
-
-/// Turns by `yaw` around +Y, then moves.
-mat4 moved(const vec3& position, float yaw = 0.0F);
-
-/// A camera at `eye` looking at `target`, +Y up.
-Camera lookingCamera(std::string name, const vec3& eye, const vec3& target, float y_fov);
-
 }  // namespace licht

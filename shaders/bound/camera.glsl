@@ -5,8 +5,13 @@
 #include "pure/random.glsl"
 #include "shared/records.h"
 
-// Where in its pixel sample `index` lies; one offset for the whole frame, because the rasteriser has one projection a frame. Box filter.
-vec2 cameraJitter(uint index, uint seed) { return sample4(SampleAddress(uvec2(0xffffu, 0xffffu), index, seed), kDimensionCamera).xy; }
+// Where in its pixel sample `index` lies, box filter. The rasteriser has one projection a frame, so all pixels share the offset and its noise
+// would not average out over them: the offsets therefore fill the pixel evenly. Roberts 2018, The Unreasonable Effectiveness of
+// Quasirandom Sequences: multiples of the inverse plastic number and its square modulo one, here exact in 32-bit words; the seed shifts them.
+vec2 cameraJitter(uint index, uint seed) {
+    uvec4 start = sampleBits4(SampleAddress(uvec2(0xffffu), 0u, seed), kDimensionCamera);
+    return uniformFromBits(uvec4(start.xy + index * uvec2(3242174889u, 2447445414u), 0u, 0u)).xy;
+}
 
 // World position relative to the eye -> clip space; w is the distance along the axis, depth is reversed: 1 at the near plane, 0 far away.
 vec4 clipFromRelative(ViewRecord view, vec3 relative, vec2 jitter) {

@@ -32,6 +32,7 @@ void main() {
             radiance = vec3(0.0);
             atomicAdd(counters.nonfinite_samples, 1u);
         }
+        if (bvh_walk_cut) atomicAdd(counters.cut_walks, 1u);
         bool covered = hit.instance != kNoIndex || frame.has_sky != 0u;
         imageStore(radiance_image, ivec2(pixel), vec4(radiance, covered ? 1.0 : 0.0));
     }

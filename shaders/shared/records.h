@@ -165,7 +165,7 @@ struct CounterRecord {
     uint bounce_rays;
     uint shadow_rays;
     uint nonfinite_samples;
-    uint reserved;
+    uint cut_walks;         // samples in which the driver ended a traversal before it was done
 };
 
 struct TonemapPush {

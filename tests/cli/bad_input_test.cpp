@@ -14,7 +14,9 @@ struct BadInput {
     const char* says;  ///< part of the line
 };
 
-void PrintTo(const BadInput& bad, std::ostream* stream) { *stream << testing::PrintToString(bad.arguments); }
+void PrintTo(const BadInput& bad, std::ostream* stream) {
+    *stream << testing::PrintToString(bad.arguments);
+}
 
 class BadInputTest : public testing::TestWithParam<BadInput> {};
 
@@ -70,7 +72,9 @@ const BadInput kBadInputs[] = {
     {"LayersWithoutExr", {"render", "empty", "-o", "a.png", "--aov", "albedo"}, "--aov"},
     {"NegativeBackground", {"render", "empty", "--background", "1,-1,1"}, "--background"},
     {"BackgroundOfTwo", {"render", "empty", "--background", "1,1"}, "--background"},
-    {"BackgroundAndEnvironment", {"render", "empty", "--background", "1,1,1", "--environment", "bad.hdr"}, "--environment"},
+    {"BackgroundAndEnvironment",
+     {"render", "empty", "--background", "1,1,1", "--environment", "bad.hdr"},
+     "--environment"},
     {"BadEnvironment", {"render", "empty", "--environment", "bad.hdr"}, "bad.hdr"},
     {"MissingEnvironment", {"render", "empty", "--environment", "missing.exr"}, "missing.exr"},
     {"OtherEnvironment", {"render", "empty", "--environment", "notes.txt"}, "notes.txt"},
@@ -84,7 +88,9 @@ const BadInput kBadInputs[] = {
     {"UnwritableReport", {"render", "empty", "--report", "/proc/report.json"}, "/proc"},
     {"ReportIsFolder", {"render", "empty", "--report", "folder"}, "folder"},
     {"UnknownDevice", {"render", "empty", "--device", "abacus"}, "abacus"},
-    {"TooLateFirstSample", {"render", "empty", "--first-sample", "4294967290", "--spp", "100"}, "--first-sample"},
+    {"TooLateFirstSample",
+     {"render", "empty", "--first-sample", "4294967290", "--spp", "100"},
+     "--first-sample"},
 };
 
 INSTANTIATE_TEST_SUITE_P(Cli, BadInputTest, testing::ValuesIn(kBadInputs),
@@ -108,7 +114,8 @@ TEST(BadInput, NoDisplayForTheViewer) {
 TEST(BadInput, NoVulkanDriverIsADeviceFailure) {
     const ScratchFolder folder;
     // The old and the new name of the variable that tells the loader where drivers are.
-    const Environment no_driver{{"VK_ICD_FILENAMES", "/nowhere"}, {"VK_DRIVER_FILES", "/nowhere"}, {"LICHT_VALIDATION", "0"}};
+    const Environment no_driver{
+        {"VK_ICD_FILENAMES", "/nowhere"}, {"VK_DRIVER_FILES", "/nowhere"}, {"LICHT_VALIDATION", "0"}};
     for (const Words& arguments : {Words{"devices"}, Words{"render", "empty"}}) {
         const Outcome outcome = runLicht(folder, arguments, no_driver);
         EXPECT_EQ(outcome.exit_code, 1);

@@ -35,15 +35,18 @@ std::vector<std::string> channelNames(const ExrPicture& picture) {
 
 bool allFinite(const ExrPicture& picture, const std::string& channel) {
     const ExrChannel* found = picture.find(channel);
-    return found != nullptr && std::all_of(found->values.begin(), found->values.end(), [](float v) { return std::isfinite(v); });
+    return found != nullptr &&
+           std::all_of(found->values.begin(), found->values.end(), [](float v) { return std::isfinite(v); });
 }
 
 bool sameBits(const ExrPicture& a, const ExrPicture& b) {
     return a.channels.size() == b.channels.size() &&
-           std::equal(a.channels.begin(), a.channels.end(), b.channels.begin(), [](const ExrChannel& x, const ExrChannel& y) {
-               return x.name == y.name && x.values.size() == y.values.size() &&
-                      std::memcmp(x.values.data(), y.values.data(), x.values.size() * sizeof(float)) == 0;
-           });
+           std::equal(a.channels.begin(), a.channels.end(), b.channels.begin(),
+                      [](const ExrChannel& x, const ExrChannel& y) {
+                          return x.name == y.name && x.values.size() == y.values.size() &&
+                                 std::memcmp(x.values.data(), y.values.data(),
+                                             x.values.size() * sizeof(float)) == 0;
+                      });
 }
 
 std::string attribute(const ExrPicture& picture, const std::string& name) {
@@ -67,11 +70,14 @@ TEST_P(BuiltinTest, WritesPngAndExr) {
     EXPECT_EQ(channelNames(exr), (Words{"A", "B", "G", "R"}));
     for (const char* channel : {"R", "G", "B", "A"}) EXPECT_TRUE(allFinite(exr, channel)) << channel;
     const std::vector<float>& red = exr.find("R")->values;
-    EXPECT_TRUE(std::any_of(red.begin(), red.end(), [](float v) { return v > 0.0F; })) << "the picture is black";
+    EXPECT_TRUE(std::any_of(red.begin(), red.end(), [](float v) { return v > 0.0F; }))
+        << "the picture is black";
 }
 
 INSTANTIATE_TEST_SUITE_P(Cli, BuiltinTest, testing::Values("empty", "cornell", "furnace"),
-                         [](const testing::TestParamInfo<const char*>& scene) { return std::string(scene.param); });
+                         [](const testing::TestParamInfo<const char*>& scene) {
+                             return std::string(scene.param);
+                         });
 
 TEST(Render, DefaultOutputIsNamedAfterTheScene) {
     const ScratchFolder folder;
@@ -89,8 +95,8 @@ TEST(Render, QuietSaysNothing) {
 
 TEST(Render, DarkSceneGetsANeutralSkyAndSaysSo) {
     const ScratchFolder folder;
-    const Outcome outcome =
-        runWell(folder, {"render", "empty", "--size", "8x8", "--spp", "1", "-o", "a.exr", "--report", "report.json"});
+    const Outcome outcome = runWell(
+        folder, {"render", "empty", "--size", "8x8", "--spp", "1", "-o", "a.exr", "--report", "report.json"});
     EXPECT_NE(outcome.err.find("neutral sky"), std::string::npos) << outcome.err;
     const json report = json::parse(folder.read("report.json"));
     EXPECT_NE(report["notes"].dump().find("neutral sky"), std::string::npos) << report["notes"];
@@ -103,8 +109,8 @@ TEST(Render, DarkSceneGetsANeutralSkyAndSaysSo) {
 
 TEST(Render, BackgroundIsTheSkyAskedFor) {
     const ScratchFolder folder;
-    const Outcome outcome =
-        runWell(folder, {"render", "empty", "--size", "8x8", "--spp", "1", "-o", "a.exr", "--background", "0.5,2,0"});
+    const Outcome outcome = runWell(
+        folder, {"render", "empty", "--size", "8x8", "--spp", "1", "-o", "a.exr", "--background", "0.5,2,0"});
     EXPECT_EQ(outcome.err.find("neutral sky"), std::string::npos) << outcome.err;
     const ExrPicture picture = readExr(folder.path() / "a.exr");
     constexpr float kTolerance = 8.0F / 16777216.0F;  // as above, relative
@@ -115,8 +121,8 @@ TEST(Render, BackgroundIsTheSkyAskedFor) {
 
 TEST(Render, ReportHasEveryKeyWithSaneValues) {
     const ScratchFolder folder;
-    runWell(folder, {"render", "cornell", "--size", "32x16", "--spp", "4", "--seed", "7", "--bounces", "3", "-o", "a.exr", "--report",
-                     "report.json"});
+    runWell(folder, {"render", "cornell", "--size", "32x16", "--spp", "4", "--seed", "7", "--bounces", "3",
+                     "-o", "a.exr", "--report", "report.json"});
     const json report = json::parse(folder.read("report.json"));
     EXPECT_EQ(report.at("scene"), "cornell");
     EXPECT_NE(report.at("device"), "");
@@ -137,7 +143,8 @@ TEST(Render, ReportHasEveryKeyWithSaneValues) {
     }
     EXPECT_GE(seconds.at("first_image").get<double>(), seconds.at("pipelines").get<double>());
     EXPECT_FALSE(report.at("passes").empty());
-    for (const auto& [name, pass_seconds] : report.at("passes").items()) EXPECT_GE(pass_seconds.get<double>(), 0.0) << name;
+    for (const auto& [name, pass_seconds] : report.at("passes").items())
+        EXPECT_GE(pass_seconds.get<double>(), 0.0) << name;
     EXPECT_EQ(report.at("rays").at("primary"), 32 * 16 * 4);
     EXPECT_GT(report.at("rays").at("bounce").get<std::uint64_t>(), 0U);
     EXPECT_GT(report.at("rays").at("shadow").get<std::uint64_t>(), 0U);
@@ -160,8 +167,8 @@ TEST(Render, AllLayersUnderTheirNames) {
     runWell(folder, {"render", "cornell", "--size", "16x16", "--spp", "3", "-o", "a.exr", "--aov", "all"});
     const ExrPicture picture = readExr(folder.path() / "a.exr");
     EXPECT_EQ(channelNames(picture),
-              (Words{"A", "B", "G", "N.X", "N.Y", "N.Z", "R", "Z", "albedo.B", "albedo.G", "albedo.R", "motion.X", "motion.Y",
-                     "sampleCount", "variance.B", "variance.G", "variance.R"}));
+              (Words{"A", "B", "G", "N.X", "N.Y", "N.Z", "R", "Z", "albedo.B", "albedo.G", "albedo.R",
+                     "motion.X", "motion.Y", "sampleCount", "variance.B", "variance.G", "variance.R"}));
     for (const float count : picture.find("sampleCount")->values) EXPECT_EQ(count, 3.0F);
     for (const char* channel : {"variance.R", "albedo.G"})
         for (const float value : picture.find(channel)->values) EXPECT_GE(value, 0.0F) << channel;
@@ -173,7 +180,8 @@ TEST(Render, AllLayersUnderTheirNames) {
 
 TEST(Render, SomeLayersOnly) {
     const ScratchFolder folder;
-    runWell(folder, {"render", "cornell", "--size", "16x16", "--spp", "1", "-o", "a.exr", "--aov", "depth,variance"});
+    runWell(folder,
+            {"render", "cornell", "--size", "16x16", "--spp", "1", "-o", "a.exr", "--aov", "depth,variance"});
     EXPECT_EQ(channelNames(readExr(folder.path() / "a.exr")),
               (Words{"A", "B", "G", "R", "Z", "variance.B", "variance.G", "variance.R"}));
 }
@@ -181,7 +189,8 @@ TEST(Render, SomeLayersOnly) {
 TEST(Render, SameSeedSameBitsOtherSeedOthers) {
     const ScratchFolder folder;
     const auto picture = [&folder](const char* seed, const char* file) {
-        runWell(folder, {"render", "cornell", "--size", "24x24", "--spp", "5", "--seed", seed, "-o", file, "--aov", "variance"});
+        runWell(folder, {"render", "cornell", "--size", "24x24", "--spp", "5", "--seed", seed, "-o", file,
+                         "--aov", "variance"});
         return readExr(folder.path() / file);
     };
     const ExrPicture first = picture("11", "a.exr");
@@ -208,7 +217,8 @@ TEST(Render, ErrorStops) {
 
 TEST(Render, FirstLimitWins) {
     const ScratchFolder folder;
-    runWell(folder, {"render", "cornell", "--size", "16x16", "--error", "1e-9", "--time", "1000", "--spp", "3", "--report", "report.json"});
+    runWell(folder, {"render", "cornell", "--size", "16x16", "--error", "1e-9", "--time", "1000", "--spp",
+                     "3", "--report", "report.json"});
     const json report = json::parse(folder.read("report.json"));
     EXPECT_EQ(report.at("stopped_by"), "spp");
     EXPECT_EQ(report.at("spp"), 3);
@@ -218,8 +228,8 @@ class InterruptTest : public testing::TestWithParam<int> {};
 
 TEST_P(InterruptTest, WritesWhatIsThere) {
     const ScratchFolder folder;
-    RunningProgram program(folder, {"render", "cornell", "--size", "64x64", "--spp", "4294967295", "-o", "a.exr", "-o", "a.png", "--report",
-                                    "report.json"});
+    RunningProgram program(folder, {"render", "cornell", "--size", "64x64", "--spp", "4294967295", "-o",
+                                    "a.exr", "-o", "a.png", "--report", "report.json"});
     ASSERT_TRUE(program.waitUntilCatches(GetParam()));
     program.send(GetParam());
     const Outcome outcome = program.wait();
@@ -235,7 +245,9 @@ TEST_P(InterruptTest, WritesWhatIsThere) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Cli, InterruptTest, testing::Values(SIGINT, SIGTERM),
-                         [](const testing::TestParamInfo<int>& sent) { return sent.param == SIGINT ? "Int" : "Term"; });
+                         [](const testing::TestParamInfo<int>& sent) {
+                             return sent.param == SIGINT ? "Int" : "Term";
+                         });
 
 TEST(Info, TextAndJsonOfEveryBuiltin) {
     const ScratchFolder folder;
@@ -249,15 +261,18 @@ TEST(Info, TextAndJsonOfEveryBuiltin) {
 TEST(Devices, OneIsChosen) {
     const ScratchFolder folder;
     const json list = json::parse(runWell(folder, {"devices", "--json"}).out);
-    EXPECT_EQ(std::count_if(list.begin(), list.end(), [](const json& device) { return device.at("chosen").get<bool>(); }), 1);
-    for (const json& device : list) EXPECT_TRUE(!device.at("chosen").get<bool>() || device.at("refusals").empty());
+    EXPECT_EQ(std::count_if(list.begin(), list.end(),
+                            [](const json& device) { return device.at("chosen").get<bool>(); }),
+              1);
+    for (const json& device : list)
+        EXPECT_TRUE(!device.at("chosen").get<bool>() || device.at("refusals").empty());
     EXPECT_NE(runWell(folder, {"devices"}).out.find("chosen"), std::string::npos);
 }
 
 TEST(Help, EverySubcommandHasIt) {
     const ScratchFolder folder;
-    for (const Words& arguments : {Words{"--help"}, Words{"render", "--help"}, Words{"info", "--help"}, Words{"devices", "--help"},
-                                   Words{"view", "--help"}, Words{"--version"}}) {
+    for (const Words& arguments : {Words{"--help"}, Words{"render", "--help"}, Words{"info", "--help"},
+                                   Words{"devices", "--help"}, Words{"view", "--help"}, Words{"--version"}}) {
         const Outcome outcome = runWell(folder, arguments);
         EXPECT_NE(outcome.out, "");
         EXPECT_EQ(outcome.err, "");

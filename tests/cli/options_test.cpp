@@ -11,7 +11,8 @@ TEST(ParseSize, TakesWhatIsInRange) {
     EXPECT_EQ(parseSize("--size", "960x540"), uvec2(960, 540));
     EXPECT_EQ(parseSize("--size", "1x1"), uvec2(1, 1));
     EXPECT_EQ(parseSize("--size", "16384x8192"), uvec2(16384, 8192));  // 2^27 pixels exactly
-    for (const char* bad : {"", "x", "0x1", "1x0", "16385x1", "16384x8193", "-1x1", "1x1x1", "1X1", " 1x1", "1x1 ", "1.5x1", "+1x1"})
+    for (const char* bad : {"", "x", "0x1", "1x0", "16385x1", "16384x8193", "-1x1", "1x1x1", "1X1", " 1x1",
+                            "1x1 ", "1.5x1", "+1x1"})
         EXPECT_THROW(parseSize("--size", bad), InputError) << bad;
 }
 
@@ -24,12 +25,14 @@ TEST(ParseCount, TakesWhatIsInRange) {
 
 TEST(ParsePositive, RefusesZeroAndWhatIsNotFinite) {
     EXPECT_DOUBLE_EQ(parsePositive("--time", "1.5e-3"), 1.5e-3);
-    for (const char* bad : {"", "0", "-0.0", "-1", "inf", "nan", "1e999", "1s"}) EXPECT_THROW(parsePositive("--time", bad), InputError) << bad;
+    for (const char* bad : {"", "0", "-0.0", "-1", "inf", "nan", "1e999", "1s"})
+        EXPECT_THROW(parsePositive("--time", bad), InputError) << bad;
 }
 
 TEST(ParseExposure, TakesBothSigns) {
     EXPECT_DOUBLE_EQ(parseExposure("--exposure", "-2.5"), -2.5);
-    for (const char* bad : {"", "65", "-65", "nan", "inf"}) EXPECT_THROW(parseExposure("--exposure", bad), InputError) << bad;
+    for (const char* bad : {"", "65", "-65", "nan", "inf"})
+        EXPECT_THROW(parseExposure("--exposure", bad), InputError) << bad;
 }
 
 TEST(ParseColour, TakesThreeNumbers) {
@@ -43,14 +46,17 @@ TEST(ParseLayers, TakesNamesOrAll) {
     EXPECT_TRUE(some.aovs.albedo && some.sample_count);
     EXPECT_FALSE(some.aovs.normal || some.aovs.depth || some.aovs.motion || some.variance);
     const Layers all = parseLayers("--aov", "all");
-    EXPECT_TRUE(all.aovs.albedo && all.aovs.normal && all.aovs.depth && all.aovs.motion && all.variance && all.sample_count);
-    for (const char* bad : {"", "albedo,", "Albedo", "albedo,all"}) EXPECT_THROW(parseLayers("--aov", bad), InputError) << bad;
+    EXPECT_TRUE(all.aovs.albedo && all.aovs.normal && all.aovs.depth && all.aovs.motion && all.variance &&
+                all.sample_count);
+    for (const char* bad : {"", "albedo,", "Albedo", "albedo,all"})
+        EXPECT_THROW(parseLayers("--aov", bad), InputError) << bad;
 }
 
 TEST(ParseOutput, KnowsTwoEndings) {
     EXPECT_EQ(parseOutput("-o", "a/b.PNG"), "a/b.PNG");
     EXPECT_EQ(parseOutput("-o", "b.exr"), "b.exr");
-    for (const char* bad : {"", ".png", "a", "a.jpg", "a.png.gz"}) EXPECT_THROW(parseOutput("-o", bad), InputError) << bad;
+    for (const char* bad : {"", ".png", "a", "a.jpg", "a.png.gz"})
+        EXPECT_THROW(parseOutput("-o", bad), InputError) << bad;
 }
 
 TEST(ParseChoices, KnowTheirNames) {

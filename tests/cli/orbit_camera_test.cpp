@@ -18,8 +18,12 @@ Camera from(const vec3& eye) {
     return camera;
 }
 
-vec3 eyeOf(const OrbitCamera& orbit) { return vec3(orbit.camera().world_from_view[3]); }
-vec3 forwardOf(const OrbitCamera& orbit) { return -vec3(orbit.camera().world_from_view[2]); }
+vec3 eyeOf(const OrbitCamera& orbit) {
+    return vec3(orbit.camera().world_from_view[3]);
+}
+vec3 forwardOf(const OrbitCamera& orbit) {
+    return -vec3(orbit.camera().world_from_view[2]);
+}
 
 void expectNear(const vec3& a, const vec3& b) {
     for (int i = 0; i < 3; ++i) EXPECT_NEAR(a[i], b[i], kTolerance) << "component " << i;
@@ -55,7 +59,8 @@ TEST(OrbitCamera, PanMovesTheAimWithTheHand) {
     const Camera camera = from({0, 0, 5});
     OrbitCamera orbit(camera, kBounds);
     orbit.pan(0.5F, 0.0F);
-    // Half a picture height at the aim's distance, to the left so that the scene follows the hand to the right.
+    // Half a picture height at the aim's distance, to the left so that the scene follows the hand to the
+    // right.
     expectNear(eyeOf(orbit), {-5.0F * std::tan(0.5F * camera.y_fov), 0, 5});
     expectNear(forwardOf(orbit), {0, 0, -1});
 }

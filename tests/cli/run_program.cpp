@@ -27,13 +27,15 @@ unsigned long long caughtSignals(pid_t pid) {
     return 0;
 }
 
-[[noreturn]] void become(const ScratchFolder& folder, const ScratchFolder& said, const std::vector<std::string>& arguments,
-                         const Environment& environment) {
+[[noreturn]] void become(const ScratchFolder& folder, const ScratchFolder& said,
+                         const std::vector<std::string>& arguments, const Environment& environment) {
     const auto redirect = [&](const char* name, int descriptor) {
         const int file = open(said.file(name).c_str(), O_CREAT | O_WRONLY | O_TRUNC, 0600);
         return file >= 0 && dup2(file, descriptor) >= 0;
     };
-    if (!redirect("out", STDOUT_FILENO) || !redirect("err", STDERR_FILENO) || chdir(folder.path().c_str()) != 0) _exit(126);
+    if (!redirect("out", STDOUT_FILENO) || !redirect("err", STDERR_FILENO) ||
+        chdir(folder.path().c_str()) != 0)
+        _exit(126);
     setenv("LICHT_VALIDATION", "1", 1);
     for (const auto& [name, value] : environment) setenv(name.c_str(), value.c_str(), 1);
     std::vector<std::string> words{LICHT_PROGRAM};
@@ -83,7 +85,8 @@ std::vector<std::string> Outcome::errorLines() const {
     return lines;
 }
 
-RunningProgram::RunningProgram(const ScratchFolder& folder, const std::vector<std::string>& arguments, const Environment& environment) {
+RunningProgram::RunningProgram(const ScratchFolder& folder, const std::vector<std::string>& arguments,
+                               const Environment& environment) {
     pid_ = fork();
     if (pid_ < 0) throw std::runtime_error("cannot fork");
     if (pid_ == 0) become(folder, said_, arguments, environment);
@@ -99,13 +102,17 @@ bool RunningProgram::waitUntilCatches(int signal) const {
     const unsigned long long bit = 1ULL << static_cast<unsigned>(signal - 1);
     while ((caughtSignals(pid_) & bit) == 0) {
         siginfo_t ended{};
-        if (waitid(P_PID, static_cast<id_t>(pid_), &ended, WEXITED | WNOHANG | WNOWAIT) != 0 || ended.si_pid != 0) return false;
+        if (waitid(P_PID, static_cast<id_t>(pid_), &ended, WEXITED | WNOHANG | WNOWAIT) != 0 ||
+            ended.si_pid != 0)
+            return false;
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
     return true;
 }
 
-void RunningProgram::send(int signal) const { kill(pid_, signal); }
+void RunningProgram::send(int signal) const {
+    kill(pid_, signal);
+}
 
 Outcome RunningProgram::wait() {
     int status = 0;

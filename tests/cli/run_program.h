@@ -41,7 +41,8 @@ using Environment = std::vector<std::pair<std::string, std::string>>;
 /// A `licht` that is running; the working folder is `folder`. The validation layer is on.
 class RunningProgram {
 public:
-    RunningProgram(const ScratchFolder& folder, const std::vector<std::string>& arguments, const Environment& environment = {});
+    RunningProgram(const ScratchFolder& folder, const std::vector<std::string>& arguments,
+                   const Environment& environment = {});
     RunningProgram(const RunningProgram&) = delete;
     RunningProgram& operator=(const RunningProgram&) = delete;
     ~RunningProgram();
@@ -56,7 +57,8 @@ private:
     pid_t pid_ = -1;
 };
 
-inline Outcome runLicht(const ScratchFolder& folder, const std::vector<std::string>& arguments, const Environment& environment = {}) {
+inline Outcome runLicht(const ScratchFolder& folder, const std::vector<std::string>& arguments,
+                        const Environment& environment = {}) {
     return RunningProgram(folder, arguments, environment).wait();
 }
 

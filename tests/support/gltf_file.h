@@ -1,5 +1,6 @@
 #pragma once
-// glTF files made by a test: JSON beside one binary buffer, written as .gltf + .bin, as .gltf with everything embedded, or as .glb.
+// glTF files made by a test: JSON beside one binary buffer, written as .gltf + .bin, as .gltf with everything
+// embedded, or as .glb.
 #include <unistd.h>
 
 #include <atomic>
@@ -22,7 +23,8 @@ class TemporaryFolder {
 public:
     TemporaryFolder() {
         static std::atomic<int> count{0};
-        path_ = std::filesystem::temp_directory_path() / ("licht_test_" + std::to_string(::getpid()) + "_" + std::to_string(count++));
+        path_ = std::filesystem::temp_directory_path() /
+                ("licht_test_" + std::to_string(::getpid()) + "_" + std::to_string(count++));
         std::filesystem::create_directories(path_);
     }
     TemporaryFolder(const TemporaryFolder&) = delete;
@@ -36,7 +38,8 @@ public:
     std::filesystem::path write(const std::string& name, std::string_view content) const {
         const std::filesystem::path file = path_ / name;
         std::filesystem::create_directories(file.parent_path());
-        std::ofstream(file, std::ios::binary).write(content.data(), static_cast<std::streamsize>(content.size()));
+        std::ofstream(file, std::ios::binary)
+            .write(content.data(), static_cast<std::streamsize>(content.size()));
         return file;
     }
 
@@ -45,7 +48,8 @@ private:
 };
 
 inline std::string base64(std::string_view bytes) {
-    static constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    static constexpr std::string_view kDigits =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     std::string text;
     for (std::size_t i = 0; i < bytes.size(); i += 3) {
         std::uint32_t group = 0;
@@ -53,7 +57,8 @@ inline std::string base64(std::string_view bytes) {
             group = group << 8U | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U);
         }
         for (std::size_t k = 0; k < 4; ++k) {
-            text += i + k <= bytes.size() ? kDigits[group >> (18U - 6U * static_cast<unsigned>(k)) & 63U] : '=';
+            text +=
+                i + k <= bytes.size() ? kDigits[group >> (18U - 6U * static_cast<unsigned>(k)) & 63U] : '=';
         }
     }
     return text;
@@ -116,20 +121,34 @@ public:
         return static_cast<int>(json[list].size()) - 1;
     }
     template <typename T>
-    int accessor(const std::vector<T>& values, int component_type, const std::string& type, std::size_t count, bool normalized = false) {
-        Json a{{"bufferView", view(bytesOf(std::span<const T>(values)))}, {"componentType", component_type}, {"count", count}, {"type", type}};
+    int accessor(const std::vector<T>& values, int component_type, const std::string& type, std::size_t count,
+                 bool normalized = false) {
+        Json a{{"bufferView", view(bytesOf(std::span<const T>(values)))},
+               {"componentType", component_type},
+               {"count", count},
+               {"type", type}};
         if (normalized) {
             a["normalized"] = true;
         }
         return add("accessors", a);
     }
-    int vec2s(const std::vector<float>& values) { return accessor(values, kFloat, "VEC2", values.size() / 2); }
-    int vec3s(const std::vector<float>& values) { return accessor(values, kFloat, "VEC3", values.size() / 3); }
-    int vec4s(const std::vector<float>& values) { return accessor(values, kFloat, "VEC4", values.size() / 4); }
-    int indices(const std::vector<std::uint16_t>& values) { return accessor(values, kUnsignedShort, "SCALAR", values.size()); }
+    int vec2s(const std::vector<float>& values) {
+        return accessor(values, kFloat, "VEC2", values.size() / 2);
+    }
+    int vec3s(const std::vector<float>& values) {
+        return accessor(values, kFloat, "VEC3", values.size() / 3);
+    }
+    int vec4s(const std::vector<float>& values) {
+        return accessor(values, kFloat, "VEC4", values.size() / 4);
+    }
+    int indices(const std::vector<std::uint16_t>& values) {
+        return accessor(values, kUnsignedShort, "SCALAR", values.size());
+    }
 
     /// A mesh of one primitive.
-    int mesh(Json primitive) { return add("meshes", {{"name", "M"}, {"primitives", Json::array({std::move(primitive)})}}); }
+    int mesh(Json primitive) {
+        return add("meshes", {{"name", "M"}, {"primitives", Json::array({std::move(primitive)})}});
+    }
     /// A node that is a root of scene 0.
     int root(Json node) {
         const int index = add("nodes", std::move(node));
@@ -154,9 +173,12 @@ public:
         return folder.write("scene.gltf", withBuffer("scene.bin").dump());
     }
     std::filesystem::path writeEmbedded(const TemporaryFolder& folder) const {
-        return folder.write("embedded.gltf", withBuffer("data:application/octet-stream;base64," + base64(binary)).dump());
+        return folder.write("embedded.gltf",
+                            withBuffer("data:application/octet-stream;base64," + base64(binary)).dump());
     }
-    std::filesystem::path writeGlb(const TemporaryFolder& folder) const { return folder.write("scene.glb", glb(withBuffer("").dump(), binary)); }
+    std::filesystem::path writeGlb(const TemporaryFolder& folder) const {
+        return folder.write("scene.glb", glb(withBuffer("").dump(), binary));
+    }
 
     /// The JSON with its buffer, unless the test wrote its own.
     Json withBuffer(const std::string& uri) const {

@@ -71,9 +71,8 @@ class FailOnMessages : public testing::EmptyTestEventListener {
 
 class DeviceLifetime : public testing::Environment {
 public:
-    DeviceLifetime() {
-        testing::UnitTest::GetInstance()->listeners().Append(new FailOnMessages);
-    }  // gtest owns it
+    // gtest owns the listener.
+    DeviceLifetime() { testing::UnitTest::GetInstance()->listeners().Append(new FailOnMessages); }
     void TearDown() override {
         testGpu().device.reset();
         reportMessages();

@@ -1,5 +1,5 @@
-// Loads every model of the asset collection, where that is present: the environment variable LICHT_ASSETS names it, or it lies beside
-// the source folder.
+// Loads every model of the asset collection, where that is present: the environment variable LICHT_ASSETS
+// names it, or it lies beside the source folder.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -65,7 +65,8 @@ TEST(Assets, EveryModelLoadsOrNamesTheExtensionItRequires) {
         ++models;
         SCOPED_TRACE(file.string());
         if (const auto it = refused.find(entry.path().filename().string()); it != refused.end()) {
-            EXPECT_EQ(loadError(file), file.string() + ": required extension '" + it->second + "' is not supported");
+            EXPECT_EQ(loadError(file),
+                      file.string() + ": required extension '" + it->second + "' is not supported");
             continue;
         }
         Scene scene;
@@ -84,7 +85,8 @@ TEST(Assets, CompressedVariantsAreRefusedByName) {
         std::cout << "no " << file << "; nothing to load\n";
         return;
     }
-    EXPECT_EQ(loadError(file), file.string() + ": required extension 'KHR_draco_mesh_compression' is not supported");
+    EXPECT_EQ(loadError(file),
+              file.string() + ": required extension 'KHR_draco_mesh_compression' is not supported");
 }
 
 }  // namespace

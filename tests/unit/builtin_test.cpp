@@ -25,7 +25,7 @@ namespace {
 
 using glm::dvec3;
 
-constexpr double kEpsilon = std::numeric_limits<float>::epsilon();
+constexpr auto kEpsilon = static_cast<double>(std::numeric_limits<float>::epsilon());
 
 dvec3 corner(const Mesh& mesh, const uvec3& triangle, int k) {
     return dvec3(mesh.positions[triangle[k]]);

@@ -35,8 +35,12 @@ std::vector<std::string> effectsOf(const std::function<void(Scene&)>& change) {
 using Names = std::vector<std::string>;
 using Change = std::function<void(Scene&)>;
 
-Material& material(Scene& scene) { return scene.materials[0]; }
-TextureSlot textured(std::uint32_t uv_set = 0) { return {.texture = 0, .uv_set = uv_set}; }
+Material& material(Scene& scene) {
+    return scene.materials[0];
+}
+TextureSlot textured(std::uint32_t uv_set = 0) {
+    return {.texture = 0, .uv_set = uv_set};
+}
 
 TEST(EffectTable, ListsEveryEffectOnceUnderItsNumber) {
     std::set<std::string_view> names;
@@ -71,46 +75,57 @@ TEST(DetectEffects, NothingIsCalledForWithoutEvidence) {
 TEST(DetectEffects, EachByItsEvidence) {
     const std::vector<std::pair<Names, Change>> cases{
         {{"textures"}, [](Scene& s) { material(s).base_color_texture = textured(); }},
-        {{}, [](Scene& s) {
+        {{},
+         [](Scene& s) {
              material(s).base_color_texture = textured();
              material(s).base_color = vec4(0, 0, 0, 1);
          }},
         {{}, [](Scene& s) { material(s).emissive_texture = textured(); }},
         {{}, [](Scene& s) { material(s).metallic_roughness_texture = textured(); }},
         {{}, [](Scene& s) { material(s).specular_texture = textured(); }},
-        {{"textures", "glossy"}, [](Scene& s) {
+        {{"textures", "glossy"},
+         [](Scene& s) {
              material(s).specular_texture = textured();
              material(s).specular = 1.0F;
          }},
         {{"textures", "normalMaps"}, [](Scene& s) { material(s).normal_texture = textured(); }},
-        {{}, [](Scene& s) {
+        {{},
+         [](Scene& s) {
              material(s).normal_texture = textured();
              material(s).normal_scale = 0.0F;
          }},
         {{"textures", "extraUvSets"}, [](Scene& s) { material(s).base_color_texture = textured(1); }},
-        {{"vertexColors"}, [](Scene& s) { s.meshes[0].colors = {vec4(1), vec4(1), vec4(1, 1, 0.5F, 1)}; }},
+        {{"vertexColors"},
+         [](Scene& s) {
+             s.meshes[0].colors = {vec4(1), vec4(1), vec4(1, 1, 0.5F, 1)};
+         }},
         {{}, [](Scene& s) { s.meshes[0].colors.assign(3, vec4(1)); }},
-        {{"alpha"}, [](Scene& s) {
+        {{"alpha"},
+         [](Scene& s) {
              material(s).alpha_mode = AlphaMode::blend;
              material(s).base_color.w = 0.5F;
          }},
         {{}, [](Scene& s) { material(s).alpha_mode = AlphaMode::blend; }},
         {{}, [](Scene& s) { material(s).alpha_mode = AlphaMode::mask; }},
-        {{"alpha"}, [](Scene& s) {
+        {{"alpha"},
+         [](Scene& s) {
              material(s).alpha_mode = AlphaMode::mask;
              material(s).base_color.w = 0.25F;
          }},
-        {{"vertexColors", "alpha"}, [](Scene& s) {
+        {{"vertexColors", "alpha"},
+         [](Scene& s) {
              material(s).alpha_mode = AlphaMode::mask;
              s.meshes[0].colors.assign(3, vec4(1, 1, 1, 0));
          }},
         {{"glossy"}, [](Scene& s) { material(s).metallic = 0.01F; }},
         {{"glossy"}, [](Scene& s) { material(s).specular = 0.01F; }},
-        {{"glossy"}, [](Scene& s) {
+        {{"glossy"},
+         [](Scene& s) {
              material(s).specular = 1.0F;
              material(s).ior = 0.0F;
          }},
-        {{"glossy"}, [](Scene& s) {  // still reflects at grazing angles
+        {{"glossy"},
+         [](Scene& s) {  // still reflects at grazing angles
              material(s).specular = 1.0F;
              material(s).ior = 1.0F;
          }},
@@ -118,7 +133,8 @@ TEST(DetectEffects, EachByItsEvidence) {
         {{}, [](Scene& s) { s.lights.push_back({.name = "L", .intensity = vec3(0)}); }},
         {{"environment"}, [](Scene& s) { s.environment = constantEnvironment(vec3(0, 0, 0.1F)); }},
         {{}, [](Scene& s) { s.environment = constantEnvironment(vec3(0)); }},
-        {{"unlit"}, [](Scene& s) {
+        {{"unlit"},
+         [](Scene& s) {
              material(s).unlit = true;
              material(s).metallic = 1.0F;
              material(s).emission = vec3(1);
@@ -145,18 +161,21 @@ Scene lampScene(float share) {
 TEST(DetectEffects, LightTrianglesAreSampledWhileTheyAreTheSmallerPart) {
     EXPECT_EQ(detectEffects(lampScene(0.25F)).names(), (Names{"emission", "lightTriangles"}));
     EXPECT_EQ(detectEffects(lampScene(0.75F)).names(), (Names{"emission"}));
-    EXPECT_EQ(effectsOf([](Scene& s) { material(s).emission = vec3(1); }), (Names{"emission"})) << "everything shines";
+    EXPECT_EQ(effectsOf([](Scene& s) { material(s).emission = vec3(1); }), (Names{"emission"}))
+        << "everything shines";
 }
 
 TEST(DetectEffects, AnEmissiveTextureCountsByItsMeanOverItsMaximum) {
     Scene scene = lampScene(0.75F);
     scene.materials[1].emissive_texture = textured();
-    EXPECT_EQ(detectEffects(scene).names(), (Names{"textures", "emission"})) << "a white texture changes nothing";
+    EXPECT_EQ(detectEffects(scene).names(), (Names{"textures", "emission"}))
+        << "a white texture changes nothing";
     // One lit texel of four: 0.75 / 4 is less than half of the area.
     scene.textures[0] = {"t", 4, 1, 8, {255, 255, 255, 255, 0, 0, 0, 255, 0, 0, 0, 255, 0, 0, 0, 255}};
     EXPECT_EQ(detectEffects(scene).names(), (Names{"textures", "emission", "lightTriangles"}));
     scene.textures[0] = {"t", 1, 1, 8, {0, 0, 0, 255}};
-    EXPECT_EQ(detectEffects(scene).names(), (Names{"textures", "emission"})) << "a black texture lights nothing";
+    EXPECT_EQ(detectEffects(scene).names(), (Names{"textures", "emission"}))
+        << "a black texture lights nothing";
 }
 
 TEST(DetectEffects, TheEvidenceNamesTheFirstObject) {
@@ -165,7 +184,8 @@ TEST(DetectEffects, TheEvidenceNamesTheFirstObject) {
     scene.lights.push_back({.name = "L"});
     const Effects effects = detectEffects(scene);
     EXPECT_EQ(effects.evidence[kEffectTextures], "material 'Matte' has a base colour texture");
-    EXPECT_EQ(effects.evidence[kEffectExtraUvSets], "material 'Matte' reads its base colour texture by TEXCOORD_2");
+    EXPECT_EQ(effects.evidence[kEffectExtraUvSets],
+              "material 'Matte' reads its base colour texture by TEXCOORD_2");
     EXPECT_EQ(effects.evidence[kEffectEmission], "material 'Matte' emits");
     EXPECT_EQ(effects.evidence[kEffectLightTriangles], "mesh 'Lamp' emits, and 25 % of all surface does");
     EXPECT_EQ(effects.evidence[kEffectPunctualLights], "light 'L' shines");
@@ -175,7 +195,8 @@ TEST(DetectEffects, TheEvidenceNamesTheFirstObject) {
 TEST(IsDark, WhereNothingGivesLight) {
     EXPECT_TRUE(isDark(Scene{}));
     EXPECT_TRUE(isDark(plainScene()));
-    const std::vector<Change> lights{[](Scene& s) { material(s).emission = vec3(0, 1, 0); }, [](Scene& s) { material(s).unlit = true; },
+    const std::vector<Change> lights{[](Scene& s) { material(s).emission = vec3(0, 1, 0); },
+                                     [](Scene& s) { material(s).unlit = true; },
                                      [](Scene& s) { s.lights.push_back({.name = "L"}); },
                                      [](Scene& s) { s.environment = constantEnvironment(vec3(1)); }};
     for (const Change& light : lights) {

@@ -1,4 +1,5 @@
-// Damaged and hostile files: each must end in one line that names the file and the object, never in a crash or in a read outside.
+// Damaged and hostile files: each must end in one line that names the file and the object, never in a crash
+// or in a read outside.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
@@ -52,11 +53,13 @@ TEST_F(BadGltf, NoFileAFolderAnEmptyFileAndNoise) {
     fs::create_directories(folder_.path() / "folder.glb");
     expectError(folder_.path() / "folder.glb", "");
     expectError(folder_.write("empty.gltf", ""), "the file is empty");
-    for (const char* text : {"g", "{", "[]", "null", "{}", "{\"asset\":[]}", "{\"asset\":{\"version\":2}}", "\xff\xfe\xfd", "{\"a\":\"\n\"}"}) {
+    for (const char* text : {"g", "{", "[]", "null", "{}", "{\"asset\":[]}", "{\"asset\":{\"version\":2}}",
+                             "\xff\xfe\xfd", "{\"a\":\"\n\"}"}) {
         expectError(folder_.write("noise.gltf", text), "no glTF");
     }
     expectError(folder_.write("old.gltf", R"({"asset":{"version":"1.0"}})"), "version 1.0 is not supported");
-    expectError(folder_.write("new.gltf", R"({"asset":{"version":"2.1","minVersion":"2.1"}})"), "version 2.1 is not supported");
+    expectError(folder_.write("new.gltf", R"({"asset":{"version":"2.1","minVersion":"2.1"}})"),
+                "version 2.1 is not supported");
 }
 
 TEST_F(BadGltf, JsonNestedDeeperThanAnyStack) {
@@ -64,7 +67,8 @@ TEST_F(BadGltf, JsonNestedDeeperThanAnyStack) {
     text += std::string(1000000, '[');
     expectError(folder_.write("deep.gltf", text), "nested deeper");
     expectError(folder_.write("deep.gltf", text + std::string(1000000, ']') + "}"), "nested deeper");
-    const std::string harmless = R"({"asset":{"version":"2.0"},"extras":"\"\\)" + std::string(1000, '[') + "\"}";
+    const std::string harmless =
+        R"({"asset":{"version":"2.0"},"extras":"\"\\)" + std::string(1000, '[') + "\"}";
     EXPECT_NO_THROW(loadGltf(folder_.write("flat.gltf", harmless)));
 }
 
@@ -80,15 +84,18 @@ TEST_F(BadGltf, AGlbCutAtEveryLength) {
 TEST_F(BadGltf, AGlbWhoseHeadersLie) {
     const GltfFile file = GltfFile::triangle();
     const std::string whole = test::glb(file.withBuffer("").dump(), file.binary);
-    const auto json_size = static_cast<unsigned char>(whole[12]) + 256U * static_cast<unsigned char>(whole[13]);
-    for (const std::size_t word : {std::size_t{4}, std::size_t{8}, std::size_t{12}, std::size_t{16}, std::size_t{20 + json_size}}) {
+    const auto json_size =
+        static_cast<unsigned char>(whole[12]) + 256U * static_cast<unsigned char>(whole[13]);
+    for (const std::size_t word :
+         {std::size_t{4}, std::size_t{8}, std::size_t{12}, std::size_t{16}, std::size_t{20 + json_size}}) {
         for (const char* value : {"\xff\xff\xff\xff", "\xfc\xff\xff\xff", "\x01\x00\x00\x80"}) {
             std::string spoilt = whole;
             spoilt.replace(word, 4, value, 4);
             errorOf(folder_.write("lie.glb", spoilt));
         }
     }
-    expectError(folder_.write("length.glb", std::string(whole).replace(8, 4, "\xff\xff\xff\xff", 4)), "its header says 4294967295 bytes");
+    expectError(folder_.write("length.glb", std::string(whole).replace(8, 4, "\xff\xff\xff\xff", 4)),
+                "its header says 4294967295 bytes");
     // A chunk that ends eight bytes beyond the file, by the length of its own header.
     std::string beyond = whole;
     beyond[20 + json_size] = static_cast<char>(beyond[20 + json_size] + 8);
@@ -104,13 +111,17 @@ TEST_F(BadGltf, AccessorsOutOfTheirBuffers) {
         {"do not fit", [](Json& j) { j["accessors"][0]["byteOffset"] = UINT64_MAX; }},
         {"do not fit", [](Json& j) { j["accessors"][0]["byteOffset"] = 4; }},
         {"do not fit", [](Json& j) { j["bufferViews"][0]["byteStride"] = 252; }},
-        {"reaches beyond the 36 bytes of buffer 0", [](Json& j) { j["bufferViews"][0]["byteOffset"] = UINT64_MAX - 35; }},
-        {"reaches beyond the 36 bytes of buffer 0", [](Json& j) { j["bufferViews"][0]["byteLength"] = UINT64_MAX; }},
+        {"reaches beyond the 36 bytes of buffer 0",
+         [](Json& j) { j["bufferViews"][0]["byteOffset"] = UINT64_MAX - 35; }},
+        {"reaches beyond the 36 bytes of buffer 0",
+         [](Json& j) { j["bufferViews"][0]["byteLength"] = UINT64_MAX; }},
         {"buffer 1 is not there", [](Json& j) { j["bufferViews"][0]["buffer"] = 1; }},
         {"buffer -1 is not there", [](Json& j) { j["bufferViews"][0]["buffer"] = -1; }},
         {"buffer view 7 is not there", [](Json& j) { j["accessors"][0]["bufferView"] = 7; }},
-        {"accessor 9 is not there", [](Json& j) { j["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = 9; }},
-        {"accessor -2 is not there", [](Json& j) { j["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = -2; }},
+        {"accessor 9 is not there",
+         [](Json& j) { j["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = 9; }},
+        {"accessor -2 is not there",
+         [](Json& j) { j["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = -2; }},
         {"component type 5124 is not allowed", [](Json& j) { j["accessors"][0]["componentType"] = 5124; }},
         {"component type 5130 is not allowed", [](Json& j) { j["accessors"][0]["componentType"] = 5130; }},
         {"it has 2 components, 3 are wanted", [](Json& j) { j["accessors"][0]["type"] = "VEC2"; }},
@@ -152,7 +163,9 @@ TEST_F(BadGltf, SparsePartsThatLie) {
         const std::vector<std::uint16_t> where{index};
         const std::vector<float> what{5, 6, 7};
         Json sparse{{"count", 1},
-                    {"indices", {{"bufferView", file.view(test::bytesOf(std::span(where)))}, {"componentType", test::kUnsignedShort}}},
+                    {"indices",
+                     {{"bufferView", file.view(test::bytesOf(std::span(where)))},
+                      {"componentType", test::kUnsignedShort}}},
                     {"values", {{"bufferView", file.view(test::bytesOf(std::span(what)))}}}};
         (part == nullptr ? sparse : sparse[part])[key] = value;
         file.json["accessors"][0]["sparse"] = sparse;
@@ -171,7 +184,8 @@ TEST_F(BadGltf, SparsePartsThatLie) {
 }
 
 TEST_F(BadGltf, FilesOutsideOfTheFolderAreNotRead) {
-    // A secret of the right length beside the asset's folder, so that a loader that follows the path would succeed.
+    // A secret of the right length beside the asset's folder, so that a loader that follows the path would
+    // succeed.
     const GltfFile triangle = GltfFile::triangle();
     folder_.write("secret.bin", triangle.binary);
     fs::create_directories(folder_.path() / "asset");
@@ -201,7 +215,8 @@ TEST_F(BadGltf, FilesOutsideOfTheFolderAreNotRead) {
     for (const auto& [uri, reason] : uris) {
         SCOPED_TRACE(uri);
         GltfFile file = GltfFile::triangle();
-        file.json["buffers"] = Json::array({{{"uri", uri}, {"byteLength", file.binary.size()}, {"name", "B"}}});
+        file.json["buffers"] =
+            Json::array({{{"uri", uri}, {"byteLength", file.binary.size()}, {"name", "B"}}});
         const fs::path path = folder_.write("asset/scene.gltf", file.json.dump());
         expectError(path, "buffer 0 'B': uri '" + uri.substr(0, 60));
         expectError(path, reason);
@@ -210,7 +225,8 @@ TEST_F(BadGltf, FilesOutsideOfTheFolderAreNotRead) {
         file.json["textures"] = Json::array({{{"source", 0}}});
         file.json["materials"] = Json::array({{{"emissiveTexture", {{"index", 0}}}}});
         file.primitive()["material"] = 0;
-        expectError(folder_.write("asset/scene.glb", test::glb(file.withBuffer("").dump(), file.binary)), reason);
+        expectError(folder_.write("asset/scene.glb", test::glb(file.withBuffer("").dump(), file.binary)),
+                    reason);
     }
     EXPECT_FALSE(fs::exists(folder_.path() / "asset" / "hacked"));
     EXPECT_FALSE(fs::exists("hacked"));
@@ -234,13 +250,19 @@ TEST_F(BadGltf, BuffersThatAreNotThereOrTooShort) {
     expectBuffer({{"uri", "x"}}, "byteLength is missing");
     expectBuffer({{"uri", "x"}, {"byteLength", -1}}, "byteLength is missing");
     expectBuffer(3, "byteLength is missing");
-    expectBuffer({{"uri", "data:application/octet-stream;base64,AAAA"}, {"byteLength", 36}}, "byteLength is 36, but only 3 bytes are there");
-    expectBuffer({{"uri", "data:application/octet-stream;base64,AAAA"}, {"byteLength", UINT64_MAX}}, "but only 3 bytes are there");
-    expectBuffer({{"uri", "data:application/octet-stream;base64,A*AA"}, {"byteLength", 3}}, "the base64 text is damaged");
-    expectBuffer({{"uri", "data:application/octet-stream;base64,AAAAA"}, {"byteLength", 3}}, "the base64 text is damaged");
-    expectBuffer({{"uri", "data:application/octet-stream;base64,A==="}, {"byteLength", 1}}, "the base64 text is damaged");
+    expectBuffer({{"uri", "data:application/octet-stream;base64,AAAA"}, {"byteLength", 36}},
+                 "byteLength is 36, but only 3 bytes are there");
+    expectBuffer({{"uri", "data:application/octet-stream;base64,AAAA"}, {"byteLength", UINT64_MAX}},
+                 "but only 3 bytes are there");
+    expectBuffer({{"uri", "data:application/octet-stream;base64,A*AA"}, {"byteLength", 3}},
+                 "the base64 text is damaged");
+    expectBuffer({{"uri", "data:application/octet-stream;base64,AAAAA"}, {"byteLength", 3}},
+                 "the base64 text is damaged");
+    expectBuffer({{"uri", "data:application/octet-stream;base64,A==="}, {"byteLength", 1}},
+                 "the base64 text is damaged");
     expectBuffer({{"uri", "data:text/plain,hello"}, {"byteLength", 5}}, "not base64");
-    expectBuffer({{"uri", "data:x;base64," + std::string(100000, '!')}, {"byteLength", 36}}, "the base64 text is damaged");
+    expectBuffer({{"uri", "data:x;base64," + std::string(100000, '!')}, {"byteLength", 36}},
+                 "the base64 text is damaged");
 }
 
 TEST_F(BadGltf, ImagesThatAreNotThereOrNoPictures) {
@@ -270,8 +292,10 @@ TEST_F(BadGltf, ImagesThatAreNotThereOrNoPictures) {
 TEST_F(BadGltf, NodesThatFormNoTree) {
     const std::vector<std::pair<Json, std::string>> trees{
         {Json::array({{{"children", {0}}}}), "node 0: it belongs to a cycle"},
-        {Json::array({{{"children", {1}}, {"name", "a"}}, {{"children", {0}}}}), "node 0 'a': it belongs to a cycle"},
-        {Json::array({{{"children", {2}}}, {{"children", {2}}}, Json::object()}), "node 2: it has two parents, nodes 0 and 1"},
+        {Json::array({{{"children", {1}}, {"name", "a"}}, {{"children", {0}}}}),
+         "node 0 'a': it belongs to a cycle"},
+        {Json::array({{{"children", {2}}}, {{"children", {2}}}, Json::object()}),
+         "node 2: it has two parents, nodes 0 and 1"},
         {Json::array({{{"children", {1, 1}}}, Json::object()}), "node 1: it has two parents, nodes 0 and 0"},
         {Json::array({{{"children", {7}}}}), "node 0: child node 7 is not there"},
         {Json::array({{{"children", {-1}}}}), "node 0: child node -1 is not there"},
@@ -285,7 +309,8 @@ TEST_F(BadGltf, NodesThatFormNoTree) {
         GltfFile file = GltfFile::triangle();
         file.json["nodes"] = nodes;
         file.json.erase("scenes");
-        file.primitive()["attributes"]["JOINTS_0"] = file.accessor<std::uint8_t>(std::vector<std::uint8_t>(12), test::kUnsignedByte, "VEC4", 3);
+        file.primitive()["attributes"]["JOINTS_0"] =
+            file.accessor<std::uint8_t>(std::vector<std::uint8_t>(12), test::kUnsignedByte, "VEC4", 3);
         file.primitive()["attributes"]["WEIGHTS_0"] = file.vec4s(std::vector<float>(12, 0.25F));
         SCOPED_TRACE(nodes.dump());
         expect(file, part);
@@ -300,12 +325,14 @@ TEST_F(BadGltf, NodesThatFormNoTree) {
     expect(file, "scene 0: node 0 is no root, its parent is node 1");
     file.json["scene"] = 8;
     expect(file, "the default scene: scene 8 is not there");
-    EXPECT_NE(errorOf(file.writeGlb(folder_), 5).find("the scene asked for: scene 5 is not there"), std::string::npos);
+    EXPECT_NE(errorOf(file.writeGlb(folder_), 5).find("the scene asked for: scene 5 is not there"),
+              std::string::npos);
 }
 
 TEST_F(BadGltf, JointsThatAreNotThere) {
     GltfFile file = GltfFile::triangle();
-    file.primitive()["attributes"]["JOINTS_0"] = file.accessor<std::uint8_t>(std::vector<std::uint8_t>(12, 1), test::kUnsignedByte, "VEC4", 3);
+    file.primitive()["attributes"]["JOINTS_0"] =
+        file.accessor<std::uint8_t>(std::vector<std::uint8_t>(12, 1), test::kUnsignedByte, "VEC4", 3);
     file.primitive()["attributes"]["WEIGHTS_0"] = file.vec4s(std::vector<float>(12, 0.25F));
     file.json["nodes"][0]["skin"] = 0;
     file.json["skins"] = Json::array({{{"joints", {0}}}});

@@ -31,8 +31,9 @@ protected:
 };
 
 bool hasNote(const Scene& scene, SceneNote::Kind kind, const std::string& part) {
-    return std::any_of(scene.notes.begin(), scene.notes.end(),
-                       [&](const SceneNote& note) { return note.kind == kind && note.text.find(part) != std::string::npos; });
+    return std::any_of(scene.notes.begin(), scene.notes.end(), [&](const SceneNote& note) {
+        return note.kind == kind && note.text.find(part) != std::string::npos;
+    });
 }
 
 std::string notesOf(const Scene& scene) {
@@ -45,7 +46,8 @@ std::string notesOf(const Scene& scene) {
 
 TEST_F(Gltf, ExternalEmbeddedAndBinaryFilesAreTheSame) {
     const GltfFile file = GltfFile::triangle();
-    for (const auto& path : {file.writeExternal(folder_), file.writeEmbedded(folder_), file.writeGlb(folder_)}) {
+    for (const auto& path :
+         {file.writeExternal(folder_), file.writeEmbedded(folder_), file.writeGlb(folder_)}) {
         const Scene scene = loadGltf(path);
         EXPECT_NO_THROW(validateScene(scene));
         ASSERT_EQ(scene.meshes.size(), 1U);
@@ -87,7 +89,10 @@ TEST_F(Gltf, TheSceneIsChosen) {
 TEST_F(Gltf, NodesMultiplyTransformsAndKeepMirrors) {
     GltfFile file = GltfFile::triangle();
     file.json["nodes"] = Json::array({
-        {{"children", {1, 2}}, {"translation", {10, 0, 0}}, {"rotation", {0, 0, std::sqrt(0.5), std::sqrt(0.5)}}, {"scale", {2, 2, 2}}},
+        {{"children", {1, 2}},
+         {"translation", {10, 0, 0}},
+         {"rotation", {0, 0, std::sqrt(0.5), std::sqrt(0.5)}},
+         {"scale", {2, 2, 2}}},
         {{"mesh", 0}, {"translation", {1, 0, 0}}},
         {{"mesh", 0}, {"matrix", {-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 5, 1}}},
     });
@@ -122,7 +127,9 @@ TEST_F(Gltf, EveryPrimitiveMode) {
         file.primitive()["mode"] = mode;
         const Scene scene = load(file);
         EXPECT_TRUE(scene.instances.empty());
-        EXPECT_TRUE(hasNote(scene, SceneNote::Kind::skipped, mode == 0 ? "points are not drawn" : "lines are not drawn")) << notesOf(scene);
+        EXPECT_TRUE(hasNote(scene, SceneNote::Kind::skipped,
+                            mode == 0 ? "points are not drawn" : "lines are not drawn"))
+            << notesOf(scene);
     }
 }
 
@@ -149,19 +156,29 @@ TEST_F(Gltf, InterleavedNormalisedAndQuantisedAttributes) {
     GltfFile file;
     // Per vertex: position as three shorts, padding, colour as four normalised bytes: 12 bytes.
     std::string bytes;
-    for (const std::array<std::int16_t, 3>& p : {std::array<std::int16_t, 3>{0, 0, 0}, {300, 0, -5}, {0, 7, 0}}) {
-        bytes += test::bytesOf(std::span<const std::int16_t>(p)) + std::string(2, '\0') + std::string("\xff\x00\x33\x80", 4);
+    for (const std::array<std::int16_t, 3>& p :
+         {std::array<std::int16_t, 3>{0, 0, 0}, {300, 0, -5}, {0, 7, 0}}) {
+        bytes += test::bytesOf(std::span<const std::int16_t>(p)) + std::string(2, '\0') +
+                 std::string("\xff\x00\x33\x80", 4);
     }
     const int view = file.view(bytes, 12);
-    const int positions = file.add("accessors", {{"bufferView", view}, {"componentType", test::kShort}, {"count", 3}, {"type", "VEC3"}});
-    const int colors = file.add("accessors", {{"bufferView", view}, {"byteOffset", 8}, {"componentType", test::kUnsignedByte}, {"count", 3},
-                                              {"type", "VEC4"}, {"normalized", true}});
-    const int normals = file.accessor<std::int8_t>({0, 0, 127, 0, 0, -128, 127, 0, 0, 0, 0, 0}, test::kByte, "VEC3", 3, true);
+    const int positions = file.add(
+        "accessors", {{"bufferView", view}, {"componentType", test::kShort}, {"count", 3}, {"type", "VEC3"}});
+    const int colors = file.add("accessors", {{"bufferView", view},
+                                              {"byteOffset", 8},
+                                              {"componentType", test::kUnsignedByte},
+                                              {"count", 3},
+                                              {"type", "VEC4"},
+                                              {"normalized", true}});
+    const int normals =
+        file.accessor<std::int8_t>({0, 0, 127, 0, 0, -128, 127, 0, 0, 0, 0, 0}, test::kByte, "VEC3", 3, true);
     file.json["accessors"][static_cast<std::size_t>(normals)]["count"] = 3;
-    const int uvs = file.accessor<std::uint16_t>({0, 65535, 65535, 0, 13107, 0}, test::kUnsignedShort, "VEC2", 3, true);
+    const int uvs =
+        file.accessor<std::uint16_t>({0, 65535, 65535, 0, 13107, 0}, test::kUnsignedShort, "VEC2", 3, true);
     file.json["extensionsUsed"] = {"KHR_mesh_quantization"};
     file.json["extensionsRequired"] = {"KHR_mesh_quantization"};
-    file.mesh({{"attributes", {{"POSITION", positions}, {"COLOR_0", colors}, {"NORMAL", normals}, {"TEXCOORD_0", uvs}}}});
+    file.mesh({{"attributes",
+                {{"POSITION", positions}, {"COLOR_0", colors}, {"NORMAL", normals}, {"TEXCOORD_0", uvs}}}});
     file.root({{"mesh", 0}});
     const Scene scene = load(file);
     const Mesh& mesh = scene.meshes.at(0);
@@ -177,7 +194,9 @@ TEST_F(Gltf, SparseAccessorsWithAndWithoutABase) {
     const std::vector<std::uint16_t> where{2};
     const std::vector<float> what{5, 6, 7};
     const Json sparse{{"count", 1},
-                      {"indices", {{"bufferView", file.view(test::bytesOf(std::span(where)))}, {"componentType", test::kUnsignedShort}}},
+                      {"indices",
+                       {{"bufferView", file.view(test::bytesOf(std::span(where)))},
+                        {"componentType", test::kUnsignedShort}}},
                       {"values", {{"bufferView", file.view(test::bytesOf(std::span(what)))}}}};
     file.json["accessors"][0]["sparse"] = sparse;
     EXPECT_EQ(load(file).meshes.at(0).positions, (std::vector<vec3>{{0, 0, 0}, {1, 0, 0}, {5, 6, 7}}));
@@ -189,7 +208,8 @@ TEST_F(Gltf, ColoursOfThreeComponentsAreOpaqueAndClamped) {
     GltfFile file = GltfFile::triangle();
     file.primitive()["attributes"]["COLOR_0"] = file.vec3s({0, 0.25F, 0.5F, 1, 2, -1, 0, 0, 0});
     const Scene scene = load(file);
-    EXPECT_EQ(scene.meshes.at(0).colors, (std::vector<vec4>{{0, 0.25F, 0.5F, 1}, {1, 1, 0, 1}, {0, 0, 0, 1}}));
+    EXPECT_EQ(scene.meshes.at(0).colors,
+              (std::vector<vec4>{{0, 0.25F, 0.5F, 1}, {1, 1, 0, 1}, {0, 0, 0, 1}}));
     EXPECT_TRUE(hasNote(scene, SceneNote::Kind::warning, "COLOR_0 leaves [0,1]"));
 }
 
@@ -212,12 +232,14 @@ TEST_F(Gltf, MorphTargetsGiveTheRestPose) {
     const Scene scene = load(file);
     ASSERT_EQ(scene.meshes.size(), 2U);
     EXPECT_EQ(scene.meshes[0].positions, (std::vector<vec3>{{0, 0, 2}, {1, 0, 0}, {1, 1, 0}}));
-    EXPECT_EQ(scene.meshes[1].positions, (std::vector<vec3>{{0, 0, 4}, {1, 0, 0}, {2, 1, 0}})) << "the node's weights win";
+    EXPECT_EQ(scene.meshes[1].positions, (std::vector<vec3>{{0, 0, 4}, {1, 0, 0}, {2, 1, 0}}))
+        << "the node's weights win";
 }
 
 TEST_F(Gltf, SkinsHoldVerticesWhereTheirJointsAre) {
     GltfFile file = GltfFile::triangle();
-    file.primitive()["attributes"]["JOINTS_0"] = file.accessor<std::uint8_t>({0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0}, test::kUnsignedByte, "VEC4", 3);
+    file.primitive()["attributes"]["JOINTS_0"] =
+        file.accessor<std::uint8_t>({0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0}, test::kUnsignedByte, "VEC4", 3);
     file.primitive()["attributes"]["WEIGHTS_0"] = file.vec4s({1, 0, 0, 0, 1, 0, 0, 0, 0.5F, 0.5F, 0, 0});
     file.primitive()["attributes"]["NORMAL"] = file.vec3s({0, 0, 1, 0, 0, 1, 0, 0, 1});
     file.json["nodes"][0]["skin"] = 0;
@@ -251,7 +273,9 @@ TEST_F(Gltf, MaterialsWithEveryFactorAndExtension) {
     file.json["images"] = Json::array({{{"uri", "p.png"}, {"name", "P"}}});
     file.json["samplers"] = Json::array({{{"wrapS", 33071}, {"wrapT", 33648}, {"magFilter", 9728}}});
     file.json["textures"] = Json::array({{{"source", 0}}, {{"source", 0}, {"sampler", 0}}});
-    const Json transform{{"KHR_texture_transform", {{"offset", {0.25, 0.5}}, {"rotation", 0.39269908}, {"scale", {1.5, 3}}, {"texCoord", 0}}}};
+    const Json transform{
+        {"KHR_texture_transform",
+         {{"offset", {0.25, 0.5}}, {"rotation", 0.39269908}, {"scale", {1.5, 3}}, {"texCoord", 0}}}};
     file.json["materials"] = Json::array(
         {{{"name", "unused"}},
          {{"name", "Glass"},
@@ -272,7 +296,10 @@ TEST_F(Gltf, MaterialsWithEveryFactorAndExtension) {
            {{"KHR_materials_emissive_strength", {{"emissiveStrength", 8}}},
             {"KHR_materials_ior", {{"ior", 1.75}}},
             {"KHR_materials_specular",
-             {{"specularFactor", 0.5}, {"specularColorFactor", {1, 2, 0}}, {"specularTexture", {{"index", 0}}}, {"specularColorTexture", {{"index", 1}}}}}}}}});
+             {{"specularFactor", 0.5},
+              {"specularColorFactor", {1, 2, 0}},
+              {"specularTexture", {{"index", 0}}},
+              {"specularColorTexture", {{"index", 1}}}}}}}}});
     const Scene scene = loadGltf(file.writeExternal(folder_));
     EXPECT_NO_THROW(validateScene(scene));
     EXPECT_TRUE(scene.notes.empty()) << notesOf(scene);
@@ -291,7 +318,8 @@ TEST_F(Gltf, MaterialsWithEveryFactorAndExtension) {
     EXPECT_EQ(m.ior, 1.75F);
     EXPECT_EQ(m.specular, 0.5F);
     EXPECT_EQ(m.specular_color, vec3(1, 2, 0));
-    EXPECT_TRUE(m.specular_texture.present() && m.specular_color_texture.present() && m.emissive_texture.present());
+    EXPECT_TRUE(m.specular_texture.present() && m.specular_color_texture.present() &&
+                m.emissive_texture.present());
     EXPECT_EQ(m.base_color_texture.wrap_u, Wrap::clamp);
     EXPECT_EQ(m.base_color_texture.wrap_v, Wrap::mirror);
     EXPECT_FALSE(m.base_color_texture.linear);
@@ -309,28 +337,36 @@ TEST_F(Gltf, MaterialsWithEveryFactorAndExtension) {
     const double c = std::cos(0.39269908);
     const double s = std::sin(0.39269908);
     for (int i = 0; i < 3; ++i) {
-        EXPECT_FLOAT_EQ(slot.u_from_uv[i], static_cast<float>(std::array{1.5 * c, 3 * s, 0.25}.at(static_cast<std::size_t>(i))));
-        EXPECT_FLOAT_EQ(slot.v_from_uv[i], static_cast<float>(std::array{-1.5 * s, 3 * c, 0.5}.at(static_cast<std::size_t>(i))));
+        EXPECT_FLOAT_EQ(slot.u_from_uv[i],
+                        static_cast<float>(std::array{1.5 * c, 3 * s, 0.25}.at(static_cast<std::size_t>(i))));
+        EXPECT_FLOAT_EQ(slot.v_from_uv[i],
+                        static_cast<float>(std::array{-1.5 * s, 3 * c, 0.5}.at(static_cast<std::size_t>(i))));
     }
     // The normal map's tangents are derived: the coordinates grow with x and y, so up in the picture is -y.
     EXPECT_EQ(scene.meshes[0].tangents.at(0), vec4(1, 0, 0, -1));
 }
 
 TEST_F(Gltf, ThePublishedRotationTest) {
-    // Khronos' TextureTransformTest places the tip of an arrow, at (7/9, 7/9) of its picture, where a quad turned by pi/8 must show it.
+    // Khronos' TextureTransformTest places the tip of an arrow, at (7/9, 7/9) of its picture, where a quad
+    // turned by pi/8 must show it.
     writePicture("p.png");
     GltfFile file = GltfFile::triangle();
     file.primitive()["material"] = 0;
     file.primitive()["attributes"]["TEXCOORD_0"] = file.vec2s({0, 0, 1, 0, 0, 1});
     file.json["images"] = Json::array({{{"uri", "p.png"}}});
     file.json["textures"] = Json::array({{{"source", 0}}});
-    file.json["materials"] = Json::array({{{"pbrMetallicRoughness",
-        {{"baseColorTexture", {{"index", 0}, {"extensions", {{"KHR_texture_transform", {{"rotation", 0.39269908169872414}}}}}}}}}}});
+    file.json["materials"] = Json::array(
+        {{{"pbrMetallicRoughness",
+           {{"baseColorTexture",
+             {{"index", 0},
+              {"extensions", {{"KHR_texture_transform", {{"rotation", 0.39269908169872414}}}}}}}}}}});
     const TextureSlot slot = loadGltf(file.writeExternal(folder_)).materials.at(0).base_color_texture;
     const vec3 where(0.5F - 0.0790482244F, 0.5F + 0.5162674858F, 1.0F);
     // The published positions are rounded sines and cosines in float.
-    EXPECT_NEAR(glm::dot(slot.u_from_uv, where), 0.5F + 0.2778174593F, 4.0F * std::numeric_limits<float>::epsilon());
-    EXPECT_NEAR(glm::dot(slot.v_from_uv, where), 0.5F + 0.2778174593F, 4.0F * std::numeric_limits<float>::epsilon());
+    EXPECT_NEAR(glm::dot(slot.u_from_uv, where), 0.5F + 0.2778174593F,
+                4.0F * std::numeric_limits<float>::epsilon());
+    EXPECT_NEAR(glm::dot(slot.v_from_uv, where), 0.5F + 0.2778174593F,
+                4.0F * std::numeric_limits<float>::epsilon());
 }
 
 TEST_F(Gltf, PicturesOfBufferViewsAndDataUris) {
@@ -340,10 +376,12 @@ TEST_F(Gltf, PicturesOfBufferViewsAndDataUris) {
     GltfFile file = GltfFile::triangle();
     file.primitive()["material"] = 0;
     file.primitive()["attributes"]["TEXCOORD_0"] = file.vec2s({0, 0, 1, 0, 0, 1});
-    file.json["images"] = Json::array({{{"bufferView", file.view(png)}, {"mimeType", "image/png"}}, {{"uri", "data:image/png;base64," + test::base64(png)}},
+    file.json["images"] = Json::array({{{"bufferView", file.view(png)}, {"mimeType", "image/png"}},
+                                       {{"uri", "data:image/png;base64," + test::base64(png)}},
                                        {{"uri", "nobody-uses-it.png"}}});
     file.json["textures"] = Json::array({{{"source", 0}}, {{"source", 1}}, {{"source", 2}}});
-    file.json["materials"] = Json::array({{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}, {"emissiveTexture", {{"index", 1}}}}});
+    file.json["materials"] = Json::array({{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}},
+                                           {"emissiveTexture", {{"index", 1}}}}});
     const Scene scene = load(file);
     ASSERT_EQ(scene.textures.size(), 2U);
     EXPECT_EQ(scene.textures[0].bytes, (std::vector<std::uint8_t>{255, 0, 0, 255, 0, 255, 0, 255}));
@@ -366,9 +404,11 @@ TEST_F(Gltf, CoordinatesThatAMaterialReadsAreThere) {
 TEST_F(Gltf, FactorsOutOfRangeAreClampedWithAWarning) {
     GltfFile file = GltfFile::triangle();
     file.primitive()["material"] = 0;
-    file.json["materials"] = Json::array({{{"pbrMetallicRoughness", {{"baseColorFactor", {2, 0.5, -1, 1}}, {"metallicFactor", 7}, {"roughnessFactor", -0.5}}},
-                                           {"emissiveFactor", {-1, 0, 0}},
-                                           {"extensions", {{"KHR_materials_ior", {{"ior", 0.5}}}, {"KHR_materials_unlit", Json::object()}}}}});
+    file.json["materials"] = Json::array(
+        {{{"pbrMetallicRoughness",
+           {{"baseColorFactor", {2, 0.5, -1, 1}}, {"metallicFactor", 7}, {"roughnessFactor", -0.5}}},
+          {"emissiveFactor", {-1, 0, 0}},
+          {"extensions", {{"KHR_materials_ior", {{"ior", 0.5}}}, {"KHR_materials_unlit", Json::object()}}}}});
     const Scene scene = load(file);
     const Material& m = scene.materials.at(0);
     EXPECT_EQ(m.base_color, vec4(1, 0.5F, 0, 1));
@@ -377,16 +417,21 @@ TEST_F(Gltf, FactorsOutOfRangeAreClampedWithAWarning) {
     EXPECT_EQ(m.emission, vec3(0.0F));
     EXPECT_EQ(m.ior, 1.0F);
     EXPECT_TRUE(m.unlit);
-    for (const char* what : {"baseColorFactor 2", "baseColorFactor -1", "metallicFactor 7", "roughnessFactor -0.5", "emissiveFactor -1", "ior 0.5"}) {
+    for (const char* what : {"baseColorFactor 2", "baseColorFactor -1", "metallicFactor 7",
+                             "roughnessFactor -0.5", "emissiveFactor -1", "ior 0.5"}) {
         EXPECT_TRUE(hasNote(scene, SceneNote::Kind::warning, what)) << what;
     }
 }
 
 TEST_F(Gltf, CamerasStandWhereTheirNodesDo) {
     GltfFile file = GltfFile::triangle();
-    file.json["cameras"] = Json::array({{{"type", "perspective"}, {"name", "eye"}, {"perspective", {{"yfov", 0.5}, {"znear", 0.1}, {"aspectRatio", 2}}}},
-                                        {{"type", "orthographic"}, {"orthographic", {{"xmag", 3}, {"ymag", 1.5}, {"znear", 0.2}, {"zfar", 10}}}},
-                                        {{"type", "perspective"}, {"perspective", {{"yfov", 4.0}, {"znear", 0.1}}}}});
+    file.json["cameras"] =
+        Json::array({{{"type", "perspective"},
+                      {"name", "eye"},
+                      {"perspective", {{"yfov", 0.5}, {"znear", 0.1}, {"aspectRatio", 2}}}},
+                     {{"type", "orthographic"},
+                      {"orthographic", {{"xmag", 3}, {"ymag", 1.5}, {"znear", 0.2}, {"zfar", 10}}}},
+                     {{"type", "perspective"}, {"perspective", {{"yfov", 4.0}, {"znear", 0.1}}}}});
     file.root({{"camera", 0}, {"translation", {1, 2, 3}}, {"scale", {5, 1, 2}}});
     file.root({{"camera", 1}, {"name", "plan"}, {"rotation", {-std::sqrt(0.5), 0, 0, std::sqrt(0.5)}}});
     file.root({{"camera", 2}});
@@ -396,12 +441,14 @@ TEST_F(Gltf, CamerasStandWhereTheirNodesDo) {
     EXPECT_EQ(scene.cameras[0].y_fov, 0.5F);
     EXPECT_EQ(scene.cameras[0].aspect, 2.0F);
     EXPECT_EQ(scene.cameras[0].z_near, 0.1F);
-    EXPECT_EQ(scene.cameras[0].world_from_view, glm::translate(mat4(1.0F), vec3(1, 2, 3))) << "a camera has no scale";
+    EXPECT_EQ(scene.cameras[0].world_from_view, glm::translate(mat4(1.0F), vec3(1, 2, 3)))
+        << "a camera has no scale";
     EXPECT_EQ(scene.cameras[1].name, "plan");
     EXPECT_EQ(scene.cameras[1].kind, Camera::Kind::orthographic);
     EXPECT_EQ(scene.cameras[1].y_extent, 1.5F);
     EXPECT_EQ(scene.cameras[1].aspect, 2.0F);
-    // Turned down by a quarter: it looks along -Y. sqrt(0.5) is rounded once in double, so float sees the exact direction within an ulp.
+    // Turned down by a quarter: it looks along -Y. sqrt(0.5) is rounded once in double, so float sees the
+    // exact direction within an ulp.
     EXPECT_NEAR(scene.cameras[1].world_from_view[2].y, 1.0F, std::numeric_limits<float>::epsilon());
     EXPECT_TRUE(hasNote(scene, SceneNote::Kind::skipped, "camera 2"));
 }
@@ -409,13 +456,15 @@ TEST_F(Gltf, CamerasStandWhereTheirNodesDo) {
 TEST_F(Gltf, PunctualLights) {
     GltfFile file = GltfFile::triangle();
     file.json["extensionsUsed"] = {"KHR_lights_punctual"};
-    file.json["extensions"]["KHR_lights_punctual"]["lights"] =
-        Json::array({{{"type", "point"}, {"name", "bulb"}, {"color", {1, 0.5, 0}}, {"intensity", 10}, {"range", 4}},
-                     {{"type", "spot"}, {"spot", {{"innerConeAngle", 0.2}, {"outerConeAngle", 0.4}}}},
-                     {{"type", "directional"}, {"intensity", -3}},
-                     {{"type", "laser"}}});
+    file.json["extensions"]["KHR_lights_punctual"]["lights"] = Json::array(
+        {{{"type", "point"}, {"name", "bulb"}, {"color", {1, 0.5, 0}}, {"intensity", 10}, {"range", 4}},
+         {{"type", "spot"}, {"spot", {{"innerConeAngle", 0.2}, {"outerConeAngle", 0.4}}}},
+         {{"type", "directional"}, {"intensity", -3}},
+         {{"type", "laser"}}});
     for (int light = 0; light < 4; ++light) {
-        file.root({{"translation", {1, 2, 3}}, {"scale", {2, 2, 2}}, {"extensions", {{"KHR_lights_punctual", {{"light", light}}}}}});
+        file.root({{"translation", {1, 2, 3}},
+                   {"scale", {2, 2, 2}},
+                   {"extensions", {{"KHR_lights_punctual", {{"light", light}}}}}});
     }
     const Scene scene = load(file);
     EXPECT_NO_THROW(validateScene(scene));
@@ -436,10 +485,13 @@ TEST_F(Gltf, PunctualLights) {
 
 TEST_F(Gltf, OptionalExtensionsThatAreUnknownWarnOnce) {
     GltfFile file = GltfFile::triangle();
-    file.json["extensionsUsed"] = {"KHR_materials_clearcoat", "EXT_mesh_gpu_instancing", "KHR_draco_mesh_compression"};
+    file.json["extensionsUsed"] = {"KHR_materials_clearcoat", "EXT_mesh_gpu_instancing",
+                                   "KHR_draco_mesh_compression"};
     file.primitive()["material"] = 0;
-    file.primitive()["extensions"] = {{"KHR_draco_mesh_compression", {{"bufferView", 0}, {"attributes", Json::object()}}}};
-    file.json["materials"] = Json::array({{{"extensions", {{"KHR_materials_clearcoat", {{"clearcoatFactor", 1}}}}}}});
+    file.primitive()["extensions"] = {
+        {"KHR_draco_mesh_compression", {{"bufferView", 0}, {"attributes", Json::object()}}}};
+    file.json["materials"] =
+        Json::array({{{"extensions", {{"KHR_materials_clearcoat", {{"clearcoatFactor", 1}}}}}}});
     const Scene scene = load(file);
     EXPECT_EQ(scene.notes.size(), 3U) << notesOf(scene);
     EXPECT_EQ(scene.meshes.at(0).triangles.size(), 1U) << "the uncompressed accessors are used";
@@ -487,12 +539,14 @@ TEST_F(Gltf, AZeroQuaternionIsNoRotation) {
 TEST_F(Gltf, TrianglesOfVerticesThatAreNoPlaceAreLeftOut) {
     GltfFile file;
     const int positions = file.vec3s({0, 0, 0, 1, 0, 0, 0, 1, 0, std::nanf(""), 0, 0, 1e19F, 0, 0});
-    file.mesh({{"attributes", {{"POSITION", positions}}}, {"indices", file.indices({0, 1, 2, 0, 1, 3, 0, 1, 4})}});
+    file.mesh(
+        {{"attributes", {{"POSITION", positions}}}, {"indices", file.indices({0, 1, 2, 0, 1, 3, 0, 1, 4})}});
     file.root({{"mesh", 0}});
     const Scene scene = load(file);
     EXPECT_EQ(scene.meshes.at(0).triangles, (std::vector<uvec3>{{0, 1, 2}}));
     EXPECT_EQ(scene.meshes[0].positions.size(), 5U);
-    EXPECT_TRUE(hasNote(scene, SceneNote::Kind::warning, "2 triangles with a vertex that is not finite")) << notesOf(scene);
+    EXPECT_TRUE(hasNote(scene, SceneNote::Kind::warning, "2 triangles with a vertex that is not finite"))
+        << notesOf(scene);
 }
 
 }  // namespace

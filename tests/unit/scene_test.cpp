@@ -48,7 +48,8 @@ std::pair<float, float> seenBy(const Camera& camera, const Bounds& bounds, float
     float reach = 0.0F;
     float nearest = kInfinity;
     for (int i = 0; i < 8; ++i) {
-        const vec3 corner((i & 1) != 0 ? bounds.upper.x : bounds.lower.x, (i & 2) != 0 ? bounds.upper.y : bounds.lower.y,
+        const vec3 corner((i & 1) != 0 ? bounds.upper.x : bounds.lower.x,
+                          (i & 2) != 0 ? bounds.upper.y : bounds.lower.y,
                           (i & 4) != 0 ? bounds.upper.z : bounds.lower.z);
         const vec4 p = view_from_world * vec4(corner, 1.0F);
         reach = std::max({reach, std::abs(p.x) / (-p.z * tan_y * aspect), std::abs(p.y) / (-p.z * tan_y)});
@@ -58,14 +59,16 @@ std::pair<float, float> seenBy(const Camera& camera, const Bounds& bounds, float
 }
 
 TEST(FramingCamera, HoldsTheBoxWithTenPercentMargin) {
-    const std::vector<Bounds> boxes{{vec3(-1), vec3(1)}, {vec3(0, 0, 0), vec3(100, 1, 0)}, {vec3(5, -3, 2), vec3(5.001F, -2.999F, 2.001F)},
+    const std::vector<Bounds> boxes{{vec3(-1), vec3(1)},
+                                    {vec3(0, 0, 0), vec3(100, 1, 0)},
+                                    {vec3(5, -3, 2), vec3(5.001F, -2.999F, 2.001F)},
                                     {vec3(-1e6F), vec3(2e6F, 1e5F, 1e3F)}};
     for (const Bounds& box : boxes) {
         for (const float aspect : {0.5F, 1.0F, 2.4F}) {
             const Camera camera = framingCamera(box, aspect);
             const auto [reach, nearest] = seenBy(camera, box, aspect);
-            // Positions up to m metres out are rounded by m 2^-24 each; seen from a distance of about the box's size s, that is m / s 2^-22
-            // or less of the picture, twice that with the matrix inverse.
+            // Positions up to m metres out are rounded by m 2^-24 each; seen from a distance of about the
+            // box's size s, that is m / s 2^-22 or less of the picture, twice that with the matrix inverse.
             const float out = std::max(glm::length(box.lower), glm::length(box.upper)) / box.radius();
             EXPECT_NEAR(reach, 0.9F, std::max(1.0F, out) * std::ldexp(1.0F, -20));
             EXPECT_GT(nearest, camera.z_near);
@@ -107,7 +110,10 @@ TEST(ValidateScene, NamesTheObjectThatIsWrong) {
         {"material 0", [](Scene& s) { s.materials[0].base_color_texture.texture = 0; }},
         {"material 0", [](Scene& s) { s.materials[0].roughness = 1.5F; }},
         {"material 0", [](Scene& s) { s.materials[0].emission.y = std::nanf(""); }},
-        {"texture 0 't'", [](Scene& s) { s.textures.push_back({"t", 2, 2, 8, std::vector<std::uint8_t>(15)}); }},
+        {"texture 0 't'",
+         [](Scene& s) {
+             s.textures.push_back({"t", 2, 2, 8, std::vector<std::uint8_t>(15)});
+         }},
         {"camera 0 'c'", [](Scene& s) { s.cameras.push_back({.name = "c", .y_fov = 4.0F}); }},
         {"light 0 'l'", [](Scene& s) { s.lights.push_back({.name = "l", .direction = vec3(0, 0, -2)}); }},
         {"environment 0 'constant'",
@@ -164,7 +170,8 @@ TEST(DeriveTangents, DegenerateCoordinatesGiveAnyFrame) {
     for (std::size_t i = 0; i < 4; ++i) {
         // Rounding to float: half an ulp in each of three components.
         EXPECT_NEAR(glm::length(vec3(mesh.tangents[i])), 1.0F, 2.0F * std::numeric_limits<float>::epsilon());
-        EXPECT_NEAR(glm::dot(vec3(mesh.tangents[i]), mesh.normals[i]), 0.0F, 2.0F * std::numeric_limits<float>::epsilon());
+        EXPECT_NEAR(glm::dot(vec3(mesh.tangents[i]), mesh.normals[i]), 0.0F,
+                    2.0F * std::numeric_limits<float>::epsilon());
     }
 }
 
@@ -174,10 +181,12 @@ TEST(DescribeScene, SaysWhatIsThere) {
     scene.lights.push_back({.name = "lamp"});
     const std::string text = describeSceneText(scene);
     const std::string json = describeSceneJson(scene);
-    for (const char* part : {"2 triangles", "'lamp' point", "skipped: mesh 7: points are not drawn", "light 'lamp' shines"}) {
+    for (const char* part :
+         {"2 triangles", "'lamp' point", "skipped: mesh 7: points are not drawn", "light 'lamp' shines"}) {
         EXPECT_NE(text.find(part), std::string::npos) << part << " in\n" << text;
     }
-    for (const char* part : {"\"triangles\": 2", "\"kind\": \"skipped\"", "\"evidence\": \"light 'lamp' shines\"", "\"environment\": null"}) {
+    for (const char* part : {"\"triangles\": 2", "\"kind\": \"skipped\"",
+                             "\"evidence\": \"light 'lamp' shines\"", "\"environment\": null"}) {
         EXPECT_NE(json.find(part), std::string::npos) << part << " in\n" << json;
     }
 }

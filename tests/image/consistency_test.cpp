@@ -1,0 +1,191 @@
+// What must not depend on how a picture is computed.
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "licht/gpu/commands.h"
+#include "licht/render/gpu_scene.h"
+#include "licht/render/history.h"
+#include "licht/render/passes.h"
+#include "licht/render/programs.h"
+#include "licht/render/view.h"
+#include "licht/scenes/builtin.h"
+#include "licht/spirv/consistency_comp.h"
+#include "support/gpu_test.h"
+#include "support/render_test.h"
+
+namespace licht {
+namespace {
+
+Scene builtin(const char* name) { return *makeBuiltinScene(name); }
+
+RenderSettings small() {
+    RenderSettings settings;
+    settings.size = uvec2(48, 32);
+    settings.seed = 7;
+    return settings;
+}
+
+bool identical(const Image& a, const Image& b) {
+    return a.texels.size() == b.texels.size() && std::memcmp(a.texels.data(), b.texels.data(), a.texels.size() * sizeof(float)) == 0;
+}
+
+TEST(Repeatability, SameSeedGivesTheSameBits) {
+    const Scene scene = builtin("cornell");
+    const Film a = renderFilm(scene, scene.cameras[0], small(), 5);
+    const Film b = renderFilm(scene, scene.cameras[0], small(), 5);
+    EXPECT_TRUE(identical(a.mean, b.mean));
+    EXPECT_TRUE(identical(a.variance, b.variance));
+}
+
+TEST(Repeatability, AnotherSeedGivesAnotherSampleOfTheSamePicture) {
+    const Scene scene = builtin("cornell");
+    RenderSettings other = small();
+    other.seed = 8;
+    const Film a = renderFilm(scene, scene.cameras[0], small(), 256);
+    const Film b = renderFilm(scene, scene.cameras[0], other, 256);
+    EXPECT_FALSE(identical(a.mean, b.mean));
+    expectSamePicture(a, b, "another_seed");
+}
+
+TEST(Repeatability, SplitRangesMergeToTheWhole) {
+    const Scene scene = builtin("cornell");
+    const Film whole = renderFilm(scene, scene.cameras[0], small(), 12);
+    RenderSettings rest = small();
+    rest.first_sample = 5;
+    const Film merged = mergeFilms(renderFilm(scene, scene.cameras[0], small(), 5), renderFilm(scene, scene.cameras[0], rest, 7));
+    ASSERT_EQ(merged.samples, 12U);
+    for (std::size_t i = 0; i < whole.mean.texels.size(); ++i)
+        ASSERT_NEAR(merged.mean.texels[i], whole.mean.texels[i], 4 * 6e-8F * whole.mean.texels[i]);  // three roundings to fp32
+    for (std::size_t i = 0; i < whole.variance.texels.size(); ++i) {
+        // The rounding of each part's mean enters the squares as (mean * 6e-8) * spread.
+        const float mean = whole.mean.texels[i / 3 * 4 + i % 3];
+        ASSERT_NEAR(merged.variance.texels[i], whole.variance.texels[i], 1e-5F * (whole.variance.texels[i] + mean * mean * 1e-4F));
+    }
+}
+
+TEST(Repeatability, MovingTheCameraAwayAndBackStartsAnew) {
+    const Scene scene = builtin("cornell");
+    const Film fresh = renderFilm(scene, scene.cameras[0], small(), 3);
+    Renderer renderer(gpu::testDevice(), scene, scene.cameras[0], small());
+    renderer.renderSample();
+    Camera moved = scene.cameras[0];
+    moved.world_from_view[3].x += 0.1F;
+    renderer.setCamera(moved);
+    renderer.renderSample();
+    EXPECT_EQ(renderer.samples(), 1U);
+    renderer.setCamera(scene.cameras[0]);
+    for (int i = 0; i < 3; ++i) renderer.renderSample();
+    EXPECT_TRUE(identical(renderer.readFilm().mean, fresh.mean));
+}
+
+TEST(Estimators, BothFormsOfTheRenderingEquationAgree) {
+    const Scene scene = builtin("cornell");
+    RenderSettings hemisphere = small();
+    hemisphere.direct = DirectLight::hemisphere;
+    hemisphere.seed = 9;
+    // The hemisphere form meets the small light seldom: its means are near normal only with many samples.
+    const Film a = renderFilm(scene, scene.cameras[0], small(), 512);
+    const Film b = renderFilm(scene, scene.cameras[0], hemisphere, 2048);
+    for (int c = 0; c < 3; ++c) {
+        const PictureMean ma = pictureMean(a, c);
+        const PictureMean mb = pictureMean(b, c);
+        EXPECT_NEAR(ma.mean, mb.mean, 4.5 * std::hypot(ma.standard_error, mb.standard_error));
+        EXPECT_LT(mb.standard_error, 0.05 * mb.mean) << "too noisy to tell anything";
+    }
+}
+
+TEST(Estimators, RouletteKeepsThePicture) {
+    const Scene scene = builtin("cornell");
+    RenderSettings roulette = small();
+    roulette.roulette_start = 0;
+    roulette.seed = 10;
+    expectSamePicture(renderFilm(scene, scene.cameras[0], roulette, 512), renderFilm(scene, scene.cameras[0], small(), 256), "roulette");
+}
+
+class EveryScene : public testing::TestWithParam<const char*> {};
+
+// Programs specialised to the scene against programs with everything compiled in. The sample addresses are the same, so only the
+// compiler's freedom in fp32 may tell them apart; a rounding that turns a path at an edge changes that path wholly, which the z-test allows and counts.
+TEST_P(EveryScene, SpecialisedProgramsGiveTheSamePicture) {
+    const Scene scene = builtin(GetParam());
+    RenderSettings everything = small();
+    everything.all_effects = true;
+    const Film a = renderFilm(scene, scene.cameras[0], small(), 16);
+    const Film b = renderFilm(scene, scene.cameras[0], everything, 16);
+    std::size_t different = 0;
+    for (std::size_t i = 0; i < a.mean.texels.size(); ++i)
+        different += std::abs(a.mean.texels[i] - b.mean.texels[i]) > 1e-5F * std::abs(b.mean.texels[i]) ? 1U : 0U;
+    EXPECT_LE(static_cast<double>(different), 0.01 * static_cast<double>(a.mean.texels.size()));
+    expectSamePicture(a, b, std::string("specialised_") + GetParam());
+}
+
+TEST_P(EveryScene, BvhInStorageBuffersGivesTheSameBits) {
+    const Scene scene = builtin(GetParam());
+    RenderSettings storage = small();
+    storage.storage_buffer_bvh = true;
+    EXPECT_TRUE(identical(renderFilm(scene, scene.cameras[0], small(), 2).mean, renderFilm(scene, scene.cameras[0], storage, 2).mean));
+}
+
+// Every pixel's primary hit, traced again from the eye through the same point: the same primitive, or the neighbour across an edge that
+// lies within rounding of it.
+TEST_P(EveryScene, TracedPrimaryHitsAreTheRasterisedOnes) {
+    gpu::Device& device = gpu::testDevice();
+    const Scene scene = builtin(GetParam());
+    Effects effects = detectEffects(scene);
+    effects.on[kEffectAlpha] = false;  // the same surfaces for both: nothing is there by chance
+    const GpuScene gpu_scene(device, scene, effects, {});
+    const uvec2 size(160, 120);
+    History history(device, size, false);
+    gpu::SpecConstants constants = gpu_scene.constants();
+    for (uint e = 0; e < kEffectCount; ++e) constants[e] = effects.has(e) ? 1U : 0U;
+    const Programs programs(device, constants, false);
+    const gpu::Program retrace = gpu::Program::compute(device, "retrace", consistency_comp, constants);
+
+    FrameRecord frame{};
+    frame.view = makeView(scene.cameras[0], size, gpu_scene.bounds());
+    frame.previous_view = frame.view;
+    gpu_scene.describe(frame);
+    gpu::Buffer frame_buffer(device, "frame", sizeof(frame), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, gpu::Memory::host_write);
+    std::memcpy(frame_buffer.mapped(), &frame, sizeof(frame));
+    struct Outcome {
+        uint hits, different, far_away, lost;
+    };
+    gpu::Buffer outcome(device, "outcome", sizeof(Outcome), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Memory::host_read);
+    std::memset(outcome.mapped(), 0, sizeof(Outcome));
+    std::vector<gpu::BoundResource> resources = gpu_scene.resources();
+    for (const gpu::BoundResource& r : history.resources()) resources.push_back(r);
+    resources.push_back({"FrameBlock", &frame_buffer});
+    resources.push_back({"OutcomeBlock", &outcome});
+    const gpu::Bindings gbuffer_bindings(device, programs.gbuffer, resources);
+    const gpu::Bindings retrace_bindings(device, retrace, resources);
+    SamplePush push{};
+    push.row_count = size.y;
+    gpu::Commands commands(device);
+    commands.begin();
+    recordGbuffer(commands, programs.gbuffer, gbuffer_bindings, gpu_scene, history, push);
+    commands.pass("retrace", {{&history.gbuffer, gpu::Access::compute_read}, {&outcome, gpu::Access::compute_read_write}},
+                  [&](const gpu::Pass& pass) { pass.dispatch(retrace, retrace_bindings, push, size.x, size.y); });
+    const gpu::Buffer* visible = &outcome;
+    commands.makeVisibleToHost(std::span(&visible, 1));
+    commands.submit();
+    commands.wait();
+    Outcome result;
+    std::memcpy(&result, outcome.mapped(), sizeof(result));
+    if (scene.instances.empty()) {
+        EXPECT_EQ(result.hits, 0U);
+        return;
+    }
+    EXPECT_GT(result.hits, size.x * size.y / 2);
+    EXPECT_EQ(result.lost, 0U) << "rays that met nothing where the rasteriser saw a surface";
+    // Rasterisers snap vertices to 1/256 pixel, so a pixel that close to an edge may see the neighbour.
+    EXPECT_LE(result.different, result.hits / 100);
+    // A different primitive at another depth is a silhouette, rarer still.
+    EXPECT_LE(result.far_away, result.hits / 500);
+}
+
+INSTANTIATE_TEST_SUITE_P(Builtin, EveryScene, testing::Values("cornell", "furnace", "gallery", "empty"),
+                         [](const auto& instance) { return std::string(instance.param); });
+
+}  // namespace
+}  // namespace licht

@@ -1,0 +1,21 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Declares every record as the shaders do, for the comparison with their C++ twins.
+#include "shared/bvh_layout.h"
+#include "shared/records.h"
+
+layout(local_size_x = 1) in;
+
+layout(push_constant) uniform Push { SamplePush sample_push; TonemapPush tonemap_push; };
+layout(std140, binding = 0) uniform FrameBlock { FrameRecord frame; };  // with its ViewRecord
+layout(std430, binding = 1) readonly buffer Vertices { VertexRecord vertices[]; };
+layout(std430, binding = 2) readonly buffer Instances { InstanceRecord instances[]; };
+layout(std430, binding = 3) readonly buffer Slots { TextureSlotRecord slots[]; };
+layout(std430, binding = 4) readonly buffer Textures { TextureRecord textures[]; };
+layout(std430, binding = 5) readonly buffer Materials { MaterialRecord materials[]; };
+layout(std430, binding = 6) readonly buffer Lights { LightRecord lights[]; };
+layout(std430, binding = 7) readonly buffer Alias { AliasRecord alias[]; };
+layout(std430, binding = 8) buffer Counters { CounterRecord counters; };
+layout(std430, binding = 9) readonly buffer Nodes { BvhNode nodes[]; };
+
+void main() {}

@@ -1,0 +1,170 @@
+// Every record has the same members at the same offsets in C++ and in the compiled shaders.
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "licht/gpu/program.h"
+#include "licht/shared/bvh_layout.h"
+#include "licht/shared/records.h"
+#include "licht/spirv/records_comp.h"
+
+namespace licht {
+namespace {
+
+using gpu::ReflectedMember;
+
+/// What aggregate initialisation takes for any member.
+struct Anything {
+    template <typename T>
+    operator T() const;
+};
+
+/// How many members an aggregate has: the most initialisers that it takes.
+template <typename Record, typename... Initialisers>
+constexpr std::size_t memberCount() {
+    if constexpr (requires { Record{Initialisers{}..., Anything{}}; })
+        return memberCount<Record, Initialisers..., Anything>();
+    else
+        return sizeof...(Initialisers);
+}
+
+struct Record {
+    std::size_t size;
+    std::size_t member_count;
+    std::vector<ReflectedMember> members;
+};
+
+ReflectedMember member(std::string name, std::size_t offset, std::size_t size) {
+    return {std::move(name), static_cast<std::uint32_t>(offset), static_cast<std::uint32_t>(size)};
+}
+
+#define LICHT_RECORD(record, ...) {#record, Record{sizeof(record), memberCount<record>(), {__VA_ARGS__}}}
+#define LICHT_MEMBER(record, name) member(#name, offsetof(record, name), sizeof(record::name))
+
+std::map<std::string, Record> hostRecords() {
+    return {
+        LICHT_RECORD(VertexRecord, LICHT_MEMBER(VertexRecord, position), LICHT_MEMBER(VertexRecord, u),
+                     LICHT_MEMBER(VertexRecord, normal), LICHT_MEMBER(VertexRecord, v)),
+        LICHT_RECORD(InstanceRecord, LICHT_MEMBER(InstanceRecord, first_triangle),
+                     LICHT_MEMBER(InstanceRecord, material), LICHT_MEMBER(InstanceRecord, first_light),
+                     LICHT_MEMBER(InstanceRecord, flags)),
+        LICHT_RECORD(TextureSlotRecord, LICHT_MEMBER(TextureSlotRecord, u_from_uv),
+                     LICHT_MEMBER(TextureSlotRecord, texture), LICHT_MEMBER(TextureSlotRecord, v_from_uv),
+                     LICHT_MEMBER(TextureSlotRecord, flags)),
+        LICHT_RECORD(TextureRecord, LICHT_MEMBER(TextureRecord, page),
+                     LICHT_MEMBER(TextureRecord, first_word), LICHT_MEMBER(TextureRecord, width),
+                     LICHT_MEMBER(TextureRecord, height), LICHT_MEMBER(TextureRecord, words_per_texel),
+                     LICHT_MEMBER(TextureRecord, reserved0), LICHT_MEMBER(TextureRecord, reserved1),
+                     LICHT_MEMBER(TextureRecord, reserved2)),
+        LICHT_RECORD(
+            MaterialRecord, LICHT_MEMBER(MaterialRecord, base_color), LICHT_MEMBER(MaterialRecord, emission),
+            LICHT_MEMBER(MaterialRecord, metallic), LICHT_MEMBER(MaterialRecord, specular_color),
+            LICHT_MEMBER(MaterialRecord, roughness), LICHT_MEMBER(MaterialRecord, specular),
+            LICHT_MEMBER(MaterialRecord, dielectric_f0), LICHT_MEMBER(MaterialRecord, normal_scale),
+            LICHT_MEMBER(MaterialRecord, alpha_cutoff), LICHT_MEMBER(MaterialRecord, flags),
+            LICHT_MEMBER(MaterialRecord, reserved0), LICHT_MEMBER(MaterialRecord, reserved1),
+            LICHT_MEMBER(MaterialRecord, reserved2), LICHT_MEMBER(MaterialRecord, base_color_slot),
+            LICHT_MEMBER(MaterialRecord, metallic_roughness_slot), LICHT_MEMBER(MaterialRecord, normal_slot),
+            LICHT_MEMBER(MaterialRecord, emissive_slot), LICHT_MEMBER(MaterialRecord, specular_slot),
+            LICHT_MEMBER(MaterialRecord, specular_color_slot)),
+        LICHT_RECORD(LightRecord, LICHT_MEMBER(LightRecord, position), LICHT_MEMBER(LightRecord, kind),
+                     LICHT_MEMBER(LightRecord, direction), LICHT_MEMBER(LightRecord, range),
+                     LICHT_MEMBER(LightRecord, intensity), LICHT_MEMBER(LightRecord, cone_scale),
+                     LICHT_MEMBER(LightRecord, instance), LICHT_MEMBER(LightRecord, primitive),
+                     LICHT_MEMBER(LightRecord, pmf), LICHT_MEMBER(LightRecord, cone_offset)),
+        LICHT_RECORD(AliasRecord, LICHT_MEMBER(AliasRecord, threshold), LICHT_MEMBER(AliasRecord, alias),
+                     LICHT_MEMBER(AliasRecord, pmf), LICHT_MEMBER(AliasRecord, reserved)),
+        LICHT_RECORD(ViewRecord, LICHT_MEMBER(ViewRecord, eye), LICHT_MEMBER(ViewRecord, orthographic),
+                     LICHT_MEMBER(ViewRecord, right), LICHT_MEMBER(ViewRecord, scale_x),
+                     LICHT_MEMBER(ViewRecord, up), LICHT_MEMBER(ViewRecord, scale_y),
+                     LICHT_MEMBER(ViewRecord, back), LICHT_MEMBER(ViewRecord, z_near),
+                     LICHT_MEMBER(ViewRecord, size), LICHT_MEMBER(ViewRecord, z_far),
+                     LICHT_MEMBER(ViewRecord, reserved)),
+        LICHT_RECORD(FrameRecord, LICHT_MEMBER(FrameRecord, view), LICHT_MEMBER(FrameRecord, previous_view),
+                     LICHT_MEMBER(FrameRecord, light_count), LICHT_MEMBER(FrameRecord, environment_light),
+                     LICHT_MEMBER(FrameRecord, environment_size), LICHT_MEMBER(FrameRecord, bounces),
+                     LICHT_MEMBER(FrameRecord, roulette_start), LICHT_MEMBER(FrameRecord, seed),
+                     LICHT_MEMBER(FrameRecord, extra_uv_sets), LICHT_MEMBER(FrameRecord, has_sky),
+                     LICHT_MEMBER(FrameRecord, reserved0), LICHT_MEMBER(FrameRecord, reserved1),
+                     LICHT_MEMBER(FrameRecord, reserved2)),
+        LICHT_RECORD(SamplePush, LICHT_MEMBER(SamplePush, sample_index),
+                     LICHT_MEMBER(SamplePush, count_before), LICHT_MEMBER(SamplePush, first_row),
+                     LICHT_MEMBER(SamplePush, row_count)),
+        LICHT_RECORD(CounterRecord, LICHT_MEMBER(CounterRecord, bounce_rays),
+                     LICHT_MEMBER(CounterRecord, shadow_rays), LICHT_MEMBER(CounterRecord, nonfinite_samples),
+                     LICHT_MEMBER(CounterRecord, cut_walks)),
+        LICHT_RECORD(TonemapPush, LICHT_MEMBER(TonemapPush, exposure), LICHT_MEMBER(TonemapPush, curve)),
+        LICHT_RECORD(BvhNode, LICHT_MEMBER(BvhNode, lower_x), LICHT_MEMBER(BvhNode, upper_x),
+                     LICHT_MEMBER(BvhNode, lower_y), LICHT_MEMBER(BvhNode, upper_y),
+                     LICHT_MEMBER(BvhNode, lower_z), LICHT_MEMBER(BvhNode, upper_z),
+                     LICHT_MEMBER(BvhNode, child)),
+    };
+}
+
+#undef LICHT_MEMBER
+#undef LICHT_RECORD
+
+/// Records that are members of others, by the members' names: reflection lists what is in them.
+std::string nestedRecord(const std::string& member) {
+    if (member.ends_with("view")) return "ViewRecord";
+    return member.ends_with("_slot") ? "TextureSlotRecord" : "";
+}
+
+std::map<std::string, std::pair<std::uint32_t, std::uint32_t>> flatten(
+    const Record& record, const std::map<std::string, Record>& records) {
+    std::map<std::string, std::pair<std::uint32_t, std::uint32_t>> flat;
+    for (const ReflectedMember& m : record.members) {
+        const std::string nested = nestedRecord(m.name);
+        if (nested.empty()) {
+            flat[m.name] = {m.offset, m.size};
+            continue;
+        }
+        for (const auto& [name, place] : flatten(records.at(nested), records))
+            flat[m.name + "." + name] = {m.offset + place.first, place.second};
+    }
+    return flat;
+}
+
+TEST(Records, deviceAndHostAgreeOnEveryMember) {
+    const std::map<std::string, Record> records = hostRecords();
+    for (const auto& [name, record] : records) {
+        EXPECT_EQ(record.members.size(), record.member_count) << name << ": not every member is listed here";
+        std::map<std::string, std::pair<std::uint32_t, std::uint32_t>> device;
+        for (const ReflectedMember& m : gpu::reflectStruct(records_comp, name))
+            device[m.name] = {m.offset, m.size};
+        ASSERT_EQ(device.count(""), 1U) << name << " is not in records.comp";
+        EXPECT_EQ(device[""].second, record.size) << name;
+        device.erase("");
+        EXPECT_EQ(device, flatten(record, records)) << name;
+    }
+}
+
+TEST(Records, noneIsForgotten) {
+    std::set<std::string> declared;
+    for (const char* file : {"records.h", "bvh_layout.h"}) {
+        const auto path =
+            std::filesystem::path(__FILE__).parent_path() / ".." / ".." / "shaders" / "shared" / file;
+        std::ifstream stream(path);
+        ASSERT_TRUE(stream) << path;
+        std::stringstream text;
+        text << stream.rdbuf();
+        const std::string source = text.str();
+        const std::regex declaration(R"((?:^|\n)struct (\w+))");
+        for (std::sregex_iterator it(source.begin(), source.end(), declaration), end; it != end; ++it)
+            declared.insert((*it)[1]);
+    }
+    std::set<std::string> tested;
+    for (const auto& [name, record] : hostRecords()) tested.insert(name);
+    EXPECT_EQ(declared, tested);
+}
+
+}  // namespace
+}  // namespace licht
