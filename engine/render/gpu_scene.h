@@ -64,6 +64,8 @@ private:
     uint extra_uv_sets_ = 0;
     uint has_sky_ = 0;
     uint stack_size_ = 1;
+    uint slot_kinds_ = 0;
+    bool wide_texels_ = false;
     bool bvh_in_storage_ = false;
     double bvh_seconds_ = 0.0;
     std::uint32_t bvh_dropped_ = 0;

@@ -31,6 +31,11 @@ gpu::SpecConstants constantsOf(const Effects& effects, const GpuScene& scene, co
     gpu::SpecConstants constants = scene.constants();
     for (uint effect = 0; effect < kEffectCount; ++effect) constants[effect] = effects.has(effect) ? 1U : 0U;
     constants[kConstantDirectMis] = settings.direct == DirectLight::mis ? 1U : 0U;
+    if (settings.all_effects) {
+        constants[kConstantTexturePages] = kTexturePages;
+        constants[kConstantTextureSlotKinds] = 0xffffffffU;
+        constants[kConstantWideTexels] = 1U;
+    }
     return constants;
 }
 
@@ -56,7 +61,7 @@ struct Renderer::State {
           effects(s.all_effects ? allEffects() : detectEffects(scene)),
           upload_start(Clock::now()),
           gpu_scene(d, scene, effects, {s.direct == DirectLight::mis, s.storage_buffer_bvh}),
-          frame_buffer(d, "frame", sizeof(FrameRecord), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, gpu::Memory::host_write),
+          frame_buffer(d, "frame", sizeof(FrameRecord), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Memory::host_write),
           slots{Slot(d, "counters 0"), Slot(d, "counters 1")} {
         statistics.bvh_seconds = gpu_scene.bvhSeconds();
         statistics.upload_seconds = secondsSince(upload_start) - statistics.bvh_seconds;

@@ -27,6 +27,7 @@ const std::array<EffectInfo, kEffectCount>& effectTable() {
         {kEffectEnvironment, "environment", "light from infinitely far", "environment_map,environment_alias",
          "path"},
         {kEffectUnlit, "unlit", "surfaces that show their colour without light", "", "path"},
+        {kEffectIridescence, "iridescence", "thin films colour what reflects", "", "path"},
     }};
     return kTable;
 }
@@ -57,8 +58,16 @@ bool dielectricReflects(const Material& m) {
     return m.specular > 0.0F;
 }
 
+bool iridescent(const Material& m) {
+    const float thickest = m.iridescence_thickness_texture.present()
+                               ? std::max(m.iridescence_thickness_minimum, m.iridescence_thickness_maximum)
+                               : m.iridescence_thickness_maximum;
+    return !m.unlit && m.iridescence > 0.0F && thickest > 0.0F;
+}
+
+/// A thin film reflects by itself, whatever lies under it.
 bool glossy(const Material& m) {
-    return !m.unlit && (m.metallic > 0.0F || dielectricReflects(m));
+    return !m.unlit && (m.metallic > 0.0F || dielectricReflects(m) || iridescent(m));
 }
 
 bool hasColors(const Mesh& mesh) {
@@ -96,6 +105,8 @@ std::vector<NamedSlot> influentialSlots(const Material& m, const Mesh& mesh) {
     add(m.emissive_texture, "emissive", emits(m));
     add(m.specular_texture, "specular", !m.unlit && dielectricReflects(m));
     add(m.specular_color_texture, "specular colour", !m.unlit && dielectricReflects(m));
+    add(m.iridescence_texture, "iridescence", iridescent(m));
+    add(m.iridescence_thickness_texture, "iridescence thickness", iridescent(m));
     return slots;
 }
 
@@ -194,6 +205,9 @@ private:
         }
         if (emits(m)) {
             call(kEffectEmission, fmt::format("material '{}' emits", m.name));
+        }
+        if (iridescent(m)) {
+            call(kEffectIridescence, fmt::format("material '{}' is iridescent", m.name));
         }
         if (m.unlit) {
             call(kEffectUnlit, fmt::format("material '{}' is unlit", m.name));

@@ -10,17 +10,19 @@
 #include "licht/core/error.h"
 #include "licht/core/file.h"
 #include "licht/scene/gltf_container.h"
+#include "licht/scene/gltf_meshopt.h"
 
 namespace licht::gltf {
 namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::array<std::string_view, 7> kSupported{
-    "KHR_lights_punctual",  "KHR_materials_emissive_strength",
-    "KHR_materials_unlit",  "KHR_materials_specular",
-    "KHR_materials_ior",    "KHR_texture_transform",
-    "KHR_mesh_quantization"};
+constexpr std::array<std::string_view, 9> kSupported{
+    "KHR_lights_punctual",    "KHR_materials_emissive_strength",
+    "KHR_materials_unlit",    "KHR_materials_specular",
+    "KHR_materials_ior",      "KHR_texture_transform",
+    "KHR_mesh_quantization",  "KHR_materials_iridescence",
+    "EXT_meshopt_compression"};
 
 bool supported(std::string_view extension) {
     return std::find(kSupported.begin(), kSupported.end(), extension) != kSupported.end();
@@ -120,8 +122,9 @@ void readBuffers(const Json& document, const Container& container, Asset& asset)
             bytes = asset.folder.read(uri, object);
         } else if (index == 0 && container.binary) {
             bytes.assign(container.binary->begin(), container.binary->end());
-        } else if (buffer.contains("extensions")) {
-            // A placeholder that only a compression extension fills; what reads it is told so by viewBytes.
+        } else if (isMeshoptFallback(buffer)) {
+            // A placeholder: whatever view of it is not compressed is told by viewBytes that nothing is
+            // there.
             asset.buffers.emplace_back();
             continue;
         } else {
@@ -222,6 +225,7 @@ Asset readAsset(const std::filesystem::path& path) {
     checkVersion(document, asset.file);
     checkExtensions(document, asset);
     readBuffers(document, container, asset);
+    decodeMeshopt(document, asset);
     readImages(document, asset);
     parseModel(document, asset);
     return asset;

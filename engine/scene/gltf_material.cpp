@@ -11,6 +11,9 @@ namespace {
 
 constexpr double kUnlimited = static_cast<double>(std::numeric_limits<float>::max());
 
+/// No film is thicker (a millimetre, in nm), nor of a higher index: the square of their product is a float.
+constexpr double kMaxFilm = 1e6;
+
 double number(const tinygltf::Value& object, const std::string& key, double fallback) {
     return object.Has(key) && object.Get(key).IsNumber() ? object.Get(key).GetNumberAsDouble() : fallback;
 }
@@ -132,18 +135,28 @@ void MaterialLoader::readExtensions(const tinygltf::Material& source, const std:
             material.specular_color[i] =
                 clamped(color.at(static_cast<std::size_t>(i)), 0, kUnlimited, object, "specularColorFactor");
         }
-        material.specular_texture = slot(
-            specular->Has("specularTexture") ? specular->Get("specularTexture") : tinygltf::Value(), object);
-        material.specular_color_texture = slot(
-            specular->Has("specularColorTexture") ? specular->Get("specularColorTexture") : tinygltf::Value(),
-            object);
+        material.specular_texture = slot(*specular, "specularTexture", object);
+        material.specular_color_texture = slot(*specular, "specularColorTexture", object);
+    }
+    if (const auto* film = find(source.extensions, "KHR_materials_iridescence")) {
+        const auto read = [&](const char* key, double fallback, double lower, double upper) {
+            return clamped(number(*film, key, fallback), lower, upper, object, key);
+        };
+        material.iridescence = read("iridescenceFactor", 0.0, 0, 1);
+        material.iridescence_ior = read("iridescenceIor", 1.3, 1, kMaxFilm);
+        material.iridescence_thickness_minimum = read("iridescenceThicknessMinimum", 100.0, 0, kMaxFilm);
+        material.iridescence_thickness_maximum = read("iridescenceThicknessMaximum", 400.0, 0, kMaxFilm);
+        material.iridescence_texture = slot(*film, "iridescenceTexture", object);
+        material.iridescence_thickness_texture = slot(*film, "iridescenceThicknessTexture", object);
     }
 }
 
-TextureSlot MaterialLoader::slot(const tinygltf::Value& info, const std::string& object) {
-    if (!info.IsObject()) {
+TextureSlot MaterialLoader::slot(const tinygltf::Value& extension, const char* name,
+                                 const std::string& object) {
+    if (!extension.Has(name) || !extension.Get(name).IsObject()) {
         return {};
     }
+    const tinygltf::Value& info = extension.Get(name);
     tinygltf::ExtensionMap extensions;
     if (info.Has("extensions") && info.Get("extensions").IsObject()) {
         extensions = info.Get("extensions").Get<tinygltf::Value::Object>();

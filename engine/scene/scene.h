@@ -50,7 +50,7 @@ struct TextureSlot {
 
 enum class AlphaMode : std::uint32_t { opaque, mask, blend };
 
-/// glTF 2.0 metallic-roughness with KHR_materials_{emissive_strength, unlit, specular, ior}.
+/// glTF 2.0 metallic-roughness with KHR_materials_{emissive_strength, unlit, specular, ior, iridescence}.
 struct Material {
     std::string name;
     vec4 base_color{1.0F};
@@ -65,12 +65,18 @@ struct Material {
     float ior = 1.5F;  ///< 0: the specular-glossiness rule of KHR_materials_ior, Fresnel = 1
     float specular = 1.0F;
     vec3 specular_color{1.0F};
-    TextureSlot base_color_texture;          ///< sRGB, alpha linear
-    TextureSlot metallic_roughness_texture;  ///< linear: G roughness, B metallic
-    TextureSlot normal_texture;              ///< linear
-    TextureSlot emissive_texture;            ///< sRGB
-    TextureSlot specular_texture;            ///< linear, A
-    TextureSlot specular_color_texture;      ///< sRGB
+    float iridescence = 0.0F;                      ///< share of the thin film, 0 to 1
+    float iridescence_ior = 1.3F;                  ///< of the film, at least 1
+    float iridescence_thickness_minimum = 100.0F;  ///< nm, where the thickness texture is 0
+    float iridescence_thickness_maximum = 400.0F;  ///< nm, where it is 1, and without one
+    TextureSlot base_color_texture;                ///< sRGB, alpha linear
+    TextureSlot metallic_roughness_texture;        ///< linear: G roughness, B metallic
+    TextureSlot normal_texture;                    ///< linear
+    TextureSlot emissive_texture;                  ///< sRGB
+    TextureSlot specular_texture;                  ///< linear, A
+    TextureSlot specular_color_texture;            ///< sRGB
+    TextureSlot iridescence_texture;               ///< linear, R
+    TextureSlot iridescence_thickness_texture;     ///< linear, G
 };
 
 /// Indexed triangles with one material. Every attribute array is empty or as long as positions.

@@ -4,6 +4,7 @@
 
 #include "bound/scene.glsl"
 #include "pure/latlong.glsl"
+#include "pure/random.glsl"
 
 layout(binding = 8) uniform sampler2D environment_map;
 layout(std430, binding = 7) readonly buffer EnvironmentAlias { AliasRecord environment_alias[]; };

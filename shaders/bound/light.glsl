@@ -33,21 +33,20 @@ float pdfTriangleLight(Surface s, float distance2, vec3 direction_to_light) {
 
 LightSample sampleTriangleLight(LightRecord light, Surface from, vec2 u) {
     vec2 b = sampleTriangle(u);
-    Hit hit = Hit(light.instance, light.primitive, b.x, b.y);
-    // Towards `from`: known only after the position is, so take the position first.
-    uvec3 v = triangleVertices(hit.instance, hit.primitive);
-    vec3 position = (1.0 - b.x - b.y) * vertices[v.x].position + b.x * vertices[v.y].position + b.y * vertices[v.z].position;
+    vec3 weights = vec3(1.0 - b.x - b.y, b);
+    uvec3 v = triangleVertices(light.instance, light.primitive);
+    vec3 p0 = vertices[v.x].position, p1 = vertices[v.y].position, p2 = vertices[v.z].position;
+    vec3 position = weights.x * p0 + weights.y * p1 + weights.z * p2;
     vec3 to_light = position - from.position;
     float distance2 = dot(to_light, to_light);
-    if (!(distance2 > 0.0)) return kNoLight;
     vec3 direction = to_light * inversesqrt(distance2);
-    Surface at = surfaceAt(hit, -direction);
-    if (largest(at.emission) <= 0.0) return kNoLight;
-    float pdf = light.pmf * distance2 / (at.area * abs(dot(at.face_normal, direction)));
-    if (!(pdf > 0.0) || isinf(pdf)) return kNoLight;
-    vec3 target = offsetOrigin(at, -direction);
-    vec3 origin = offsetOrigin(from, direction);
-    return LightSample(target - origin, 1.0, at.emission, pdf, false, true);
+    Face face = faceOf(p0, p1, p2);
+    float cos_light = -dot(face.normal, direction);
+    vec3 radiance = emissionOf(materials[instances[light.instance].material], v, weights, cos_light > 0.0);
+    float pdf = light.pmf * distance2 / (face.area * abs(cos_light));
+    bool valid = distance2 > 0.0 && largest(radiance) > 0.0 && pdf > 0.0 && !isinf(pdf);
+    vec3 target = offsetOrigin(position, face.normal, face.error_bound, -direction);
+    return LightSample(target - offsetOrigin(from, direction), 1.0, radiance, pdf, false, valid);
 }
 
 // KHR_lights_punctual: inverse square, an optional range window, and a spot's cone.

@@ -29,20 +29,35 @@ vec3 directLight(Surface s, vec3 wo_local, uint dimension, inout PathCounts coun
 
 vec3 skyRadiance(vec3 direction) { return kEnvironment ? environmentRadiance(direction) : vec3(0.0); }
 
+// Weight of what a scattered ray met, against the light sampling that could have found it too. scatter_pdf: solid angle.
+float weightOfSky(float scatter_pdf, vec3 direction) {
+    if (!kDirectMis || frame.environment_light == kNoIndex) return 1.0;
+    return misWeight(scatter_pdf, lights[frame.environment_light].pmf * pdfEnvironment(direction));
+}
+
+float weightOfSurface(float scatter_pdf, Surface s, vec3 from, vec3 direction) {
+    if (!kDirectMis || !kLightTriangles || s.light == kNoIndex || lights[s.light].pmf <= 0.0) return 1.0;
+    vec3 d = s.position - from;
+    return misWeight(scatter_pdf, pdfTriangleLight(s, dot(d, d), direction));
+}
+
 // Radiance along wo (unit, world, away from the scene) of a path whose first vertex is `hit`.
 vec3 pathRadiance(Hit hit, vec3 wo, inout PathCounts counts) {
     if (hit.instance == kNoIndex) return skyRadiance(-wo);
-
-    // Emission seen directly: T^0 Le.
-    Surface s = surfaceAt(hit, wo);
-    vec3 radiance = s.emission;
+    vec3 radiance = vec3(0.0);
     vec3 throughput = vec3(1.0);
+    vec3 from = vec3(0.0);      // the vertex before
+    float scatter_pdf = 0.0;    // of the direction that led here
 
-    for (uint bounce = 0u; bounce < frame.bounces; ++bounce) {
-        uint dimension = kDimensionBounce + kDimensionsPerBounce * bounce;
-        vec3 wo_local = localFromWorld(s.frame, wo);
+    for (uint bounce = 0u;; ++bounce) {
+        // What the surface emits: T^bounce Le. Seen directly it counts whole.
+        Surface s = surfaceAt(hit, wo);
+        if (kEmission || kUnlit) radiance += throughput * s.emission * (bounce == 0u ? 1.0 : weightOfSurface(scatter_pdf, s, from, -wo));
+        if (bounce >= frame.bounces) break;
 
         // Sample a light.
+        uint dimension = kDimensionBounce + kDimensionsPerBounce * bounce;
+        vec3 wo_local = localFromWorld(s.frame, wo);
         if (kLightTriangles || kPunctualLights || kEnvironment) radiance += throughput * directLight(s, wo_local, dimension, counts);
 
         // Sample the BSDF.
@@ -61,28 +76,15 @@ vec3 pathRadiance(Hit hit, vec3 wo, inout PathCounts counts) {
             throughput /= survival;
         }
 
-        // Follow the ray; what it finds is weighted against the light sampling that could have found it too.
+        // Follow the ray.
         ++counts.bounce_rays;
-        vec3 from = s.position;
         hit = traceNearest(offsetOrigin(s, wi), wi);
         wo = -wi;
+        from = s.position;
+        scatter_pdf = scattered.pdf;
         if (hit.instance == kNoIndex) {
-            if (kEnvironment) {
-                float weight = 1.0;
-                if (kDirectMis && frame.environment_light != kNoIndex)
-                    weight = misWeight(scattered.pdf, lights[frame.environment_light].pmf * pdfEnvironment(wi));
-                radiance += throughput * weight * environmentRadiance(wi);
-            }
+            if (kEnvironment) radiance += throughput * weightOfSky(scatter_pdf, wi) * skyRadiance(wi);
             break;
-        }
-        s = surfaceAt(hit, wo);
-        if (kEmission || kUnlit) {
-            float weight = 1.0;
-            if (kDirectMis && kLightTriangles && s.light != kNoIndex && lights[s.light].pmf > 0.0) {
-                vec3 d = s.position - from;
-                weight = misWeight(scattered.pdf, pdfTriangleLight(s, dot(d, d), wi));
-            }
-            radiance += throughput * weight * s.emission;
         }
     }
     return radiance;

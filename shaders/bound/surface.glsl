@@ -23,8 +23,8 @@ struct Surface {
 // works relative to the ray's origin, adds about as many of the triangle's own extent. Measured needs are 1 to 8 units.
 const float kPositionUnits = 32.0 * 5.9604644775390625e-8;
 
-vec4 baseColorAt(uint instance, MaterialRecord m, uvec3 v, vec3 weights) {
-    vec4 c = m.base_color * sampleSlot(m.base_color_slot, v, weights);
+vec4 baseColorAt(MaterialRecord m, uvec3 v, vec3 weights) {
+    vec4 c = m.base_color * sampleSlot(kSlotBaseColor, m.base_color_slot, v, weights);
     return kVertexColors ? c * vertexColorAt(v, weights) : c;
 }
 
@@ -33,7 +33,7 @@ bool covers(uint instance, uint primitive, float b1, float b2, float u) {
     MaterialRecord m = materials[instances[instance].material];
     if ((m.flags & (kMaterialAlphaMask | kMaterialAlphaBlend)) == 0u) return true;
     uvec3 v = triangleVertices(instance, primitive);
-    float alpha = baseColorAt(instance, m, v, vec3(1.0 - b1 - b2, b1, b2)).a;
+    float alpha = baseColorAt(m, v, vec3(1.0 - b1 - b2, b1, b2)).a;
     return (m.flags & kMaterialAlphaMask) != 0u ? alpha >= m.alpha_cutoff : u < alpha;
 }
 
@@ -49,7 +49,7 @@ vec3 mappedNormal(MaterialRecord m, uvec3 v, vec3 weights, vec3 n) {
     if (!(length2 > 0.0)) return n;
     tangent *= inversesqrt(length2);
     vec3 bitangent = (t.w < 0.0 ? -1.0 : 1.0) * cross(n, tangent);
-    vec3 k = sampleSlot(m.normal_slot, v, weights).xyz * 2.0 - 1.0;
+    vec3 k = sampleSlot(kSlotNormal, m.normal_slot, v, weights).xyz * 2.0 - 1.0;
     vec3 mapped = k.x * m.normal_scale * tangent + k.y * m.normal_scale * bitangent + k.z * n;
     float mapped2 = dot(mapped, mapped);
     return mapped2 > 0.0 ? mapped * inversesqrt(mapped2) : n;
@@ -62,21 +62,52 @@ Bsdf bsdfOf(MaterialRecord m, uvec3 v, vec3 weights, vec3 base) {
     float specular = m.specular;
     vec3 specular_color = m.specular_color;
     if (kTextures) {
-        vec4 mr = sampleSlot(m.metallic_roughness_slot, v, weights);
+        vec4 mr = sampleSlot(kSlotMetallicRoughness, m.metallic_roughness_slot, v, weights);
         metallic *= mr.b;
         roughness *= mr.g;
-        specular *= sampleSlot(m.specular_slot, v, weights).a;
-        specular_color *= sampleSlot(m.specular_color_slot, v, weights).rgb;
+        specular *= sampleSlot(kSlotSpecular, m.specular_slot, v, weights).a;
+        specular_color *= sampleSlot(kSlotSpecularColor, m.specular_color_slot, v, weights).rgb;
     }
     vec3 dielectric_f0 = min(m.dielectric_f0 * specular_color, vec3(1.0)) * specular;
-    Bsdf b;
-    b.diffuse = base * (1.0 - metallic);
-    b.alpha = max(roughness * roughness, kMinAlpha);
-    b.f0 = mix(dielectric_f0, base, metallic);
-    b.f90 = mix(specular, 1.0, metallic);
-    b.dielectric_f0 = largest(dielectric_f0);
-    b.dielectric_f90 = specular;
+    Bsdf b = plainBsdf(base * (1.0 - metallic), max(roughness * roughness, kMinAlpha), mix(dielectric_f0, base, metallic),
+                       mix(specular, 1.0, metallic), largest(dielectric_f0), specular);
+    if (kIridescence) {
+        float strength = m.iridescence;
+        float thickness = m.iridescence_thickness_maximum;
+        if (kTextures) {
+            strength *= sampleSlot(kSlotIridescence, m.iridescence_slot, v, weights).r;
+            if (m.iridescence_thickness_slot.texture != kNoIndex)
+                thickness = mix(m.iridescence_thickness_minimum, thickness, sampleSlot(kSlotIridescenceThickness, m.iridescence_thickness_slot, v, weights).g);
+        }
+        b.film = thinFilm(strength, m.iridescence_ior, thickness);
+        b.film_dielectric_f0 = dielectric_f0;
+        b.film_metal_f0 = base;
+        b.metallic = metallic;
+    }
     return b;
+}
+
+// A triangle's plane.
+struct Face {
+    vec3 normal;        // unit, world; the triangle is counter-clockwise seen from where it points to
+    float area;         // m^2
+    float error_bound;  // how far from the true plane position and traversal may see each other, metres
+};
+
+Face faceOf(vec3 p0, vec3 p1, vec3 p2) {
+    vec3 e1 = p1 - p0, e2 = p2 - p0;
+    float scale = largest(max(abs(e1), abs(e2)));  // so that the product of tiny edges does not underflow
+    vec3 area2 = cross(e1 / scale, e2 / scale);
+    float length_area2 = length(area2);
+    vec3 normal = area2 / length_area2;
+    float coordinates = dot(abs(normal), max(abs(p0), max(abs(p1), abs(p2))));
+    return Face(normal, 0.5 * length_area2 * scale * scale, kPositionUnits * (coordinates + scale));
+}
+
+// Emitted towards wo, cd/m^2. Single-sided surfaces emit from their front.
+vec3 emissionOf(MaterialRecord m, uvec3 v, vec3 weights, bool front) {
+    if (!kEmission || !(front || (m.flags & kMaterialDoubleSided) != 0u)) return vec3(0.0);
+    return m.emission * sampleSlot(kSlotEmissive, m.emissive_slot, v, weights).rgb;
 }
 
 // wo: unit, world, towards where the path came from.
@@ -89,22 +120,16 @@ Surface surfaceAt(Hit hit, vec3 wo) {
 
     Surface s;
     s.position = weights.x * p0 + weights.y * p1 + weights.z * p2;
-
-    // The face: counter-clockwise seen from its front.
-    vec3 e1 = p1 - p0, e2 = p2 - p0;
-    float scale = largest(max(abs(e1), abs(e2)));  // so that the product of tiny edges does not underflow
-    vec3 area2 = cross(e1 / scale, e2 / scale);
-    float length_area2 = length(area2);
-    s.area = 0.5 * length_area2 * scale * scale;
-    vec3 face = area2 / length_area2;
-    bool front = dot(face, wo) >= 0.0;
-    s.face_normal = front ? face : -face;
-    s.error_bound = kPositionUnits * (dot(abs(face), max(abs(p0), max(abs(p1), abs(p2)))) + scale);
+    Face face = faceOf(p0, p1, p2);
+    bool front = dot(face.normal, wo) >= 0.0;
+    s.face_normal = front ? face.normal : -face.normal;
+    s.area = face.area;
+    s.error_bound = face.error_bound;
 
     // The shading normal, on the same side; bent back into view where interpolation or a map turns it away from wo.
     vec3 n = weights.x * vertices[v.x].normal + weights.y * vertices[v.y].normal + weights.z * vertices[v.z].normal;
     float n2 = dot(n, n);
-    n = n2 > 0.0 ? n * inversesqrt(n2) : face;
+    n = n2 > 0.0 ? n * inversesqrt(n2) : face.normal;
     if (kNormalMaps && (instance.flags & kInstanceTangents) != 0u && m.normal_slot.texture != kNoIndex) n = mappedNormal(m, v, weights, n);
     n = front ? n : -n;
     const float kLowestCosine = 1e-3;  // keeps wo inside the hemisphere by more than the rounding of the frame
@@ -112,19 +137,16 @@ Surface surfaceAt(Hit hit, vec3 wo) {
     if (away < kLowestCosine) n = normalize(n + (kLowestCosine - away) * 1.0001 * wo);
     s.frame = frameFromNormal(n);
 
-    vec4 base = baseColorAt(hit.instance, m, v, weights);
+    vec4 base = baseColorAt(m, v, weights);
+    bool unlit = kUnlit && (m.flags & kMaterialUnlit) != 0u;
     s.base_color = base.rgb;
-    s.emission = vec3(0.0);
+    s.bsdf = bsdfOf(m, v, weights, base.rgb);
+    s.emission = emissionOf(m, v, weights, front);
     s.light = kNoIndex;
-    if (kUnlit && (m.flags & kMaterialUnlit) != 0u) {
+    if (kLightTriangles && instance.first_light != kNoIndex && largest(s.emission) > 0.0) s.light = instance.first_light + hit.primitive;
+    if (unlit) {
         s.bsdf = lambertBsdf(vec3(0.0));
         s.emission = base.rgb;
-        return s;
-    }
-    s.bsdf = bsdfOf(m, v, weights, base.rgb);
-    if (kEmission && (front || (m.flags & kMaterialDoubleSided) != 0u)) {
-        s.emission = m.emission * sampleSlot(m.emissive_slot, v, weights).rgb;
-        if (kLightTriangles && instance.first_light != kNoIndex) s.light = instance.first_light + hit.primitive;
     }
     return s;
 }

@@ -9,8 +9,14 @@ layout(std430, binding = 9) readonly buffer Textures { TextureRecord textures[];
 layout(std430, binding = 10) readonly buffer TexelPages { uint words[]; } texel_pages[kTexturePages];
 layout(std430, binding = 14) readonly buffer SrgbTable { float srgb_table[256]; };
 
+// What of the texture code the scene calls for: drivers without branches run everything that is compiled in.
+layout(constant_id = 66) const uint kTexturePagesUsed = kTexturePages;
+layout(constant_id = 67) const uint kTextureSlotKinds = 0xffffffffu;  // bits 1 << kSlot...
+layout(constant_id = 68) const bool kWideTexels = true;               // 16 bits per channel
+
 // The page differs from lane to lane, which core Vulkan does not let index an array of buffers.
 uint texelWord(uint page, uint word) {
+    if (kTexturePagesUsed <= 1u) return texel_pages[0].words[word];
     switch (page) {
         case 0u: return texel_pages[0].words[word];
         case 1u: return texel_pages[1].words[word];
@@ -36,7 +42,7 @@ vec4 texelAt(TextureRecord t, ivec2 at, uint flags) {
     at.y = wrapTexel(at.y, int(t.height), (flags >> kSlotWrapVShift) & 3u);
     uint word = t.first_word + (uint(at.y) * t.width + uint(at.x)) * t.words_per_texel;
     uint low = texelWord(t.page, word);
-    if (t.words_per_texel == 2u) {
+    if (kWideTexels && t.words_per_texel == 2u) {
         uint high = texelWord(t.page, word + 1u);
         vec4 c = vec4(unpackUnorm2x16(low), unpackUnorm2x16(high));
         if ((flags & kSlotSrgb) == 0u) return c;
@@ -53,17 +59,16 @@ vec4 texelAt(TextureRecord t, ivec2 at, uint flags) {
     return vec4(srgb_table[b.x], srgb_table[b.y], srgb_table[b.z], float(b.w) / 255.0);
 }
 
-// Filtered value of a slot at its transformed coordinates; white where the slot is empty.
-vec4 sampleSlot(TextureSlotRecord slot, uvec3 v, vec3 weights) {
-    if (!kTextures || slot.texture == kNoIndex) return vec4(1.0);
+// Filtered value of a slot of that kind (kSlot...) at its transformed coordinates; white where the slot is empty.
+vec4 sampleSlot(uint kind, TextureSlotRecord slot, uvec3 v, vec3 weights) {
+    if (!kTextures || (kTextureSlotKinds & (1u << kind)) == 0u || slot.texture == kNoIndex) return vec4(1.0);
     vec3 uv1 = vec3(uvAt(v, weights, slot.flags >> kSlotUvSetShift), 1.0);
     vec2 uv = vec2(dot(slot.u_from_uv, uv1), dot(slot.v_from_uv, uv1));
     TextureRecord t = textures[slot.texture];
     vec2 x = uv * vec2(t.width, t.height);
     // Coordinates so far out that a texel is not resolved any more (or no number at all) read the first texel instead of wandering.
     if (!(abs(x.x) < 1e9 && abs(x.y) < 1e9)) x = vec2(0.5);
-    if ((slot.flags & kSlotLinear) == 0u) return texelAt(t, ivec2(floor(x)), slot.flags);
-    x -= 0.5;
+    x = (slot.flags & kSlotLinear) == 0u ? floor(x) : x - 0.5;
     ivec2 i = ivec2(floor(x));
     vec2 f = x - vec2(i);
     return mix(mix(texelAt(t, i, slot.flags), texelAt(t, i + ivec2(1, 0), slot.flags), f.x),

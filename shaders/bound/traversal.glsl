@@ -1,6 +1,6 @@
 // Follows a ray through the 4-wide tree of shared/bvh_layout.h. The twin of engine/bvh/traverse.cpp.
 // The including shader defines, before it includes this file,
-//     bool acceptHit(uint position, float b1, float b2)
+//     bool acceptHit(uint position, float t)
 // which says whether a triangle that the ray meets counts there (alpha, culling). `position` is in the leaves' order.
 #ifndef LICHT_BOUND_TRAVERSAL_GLSL
 #define LICHT_BOUND_TRAVERSAL_GLSL
@@ -130,7 +130,7 @@ TraceHit traceRay(vec3 origin, vec3 direction, float t_min, float t_max, bool an
                 if (hit.t == best.t && best.position != kNoIndex) {
                     nearer = bvhTriangleOrder(position) < bvhTriangleOrder(best.position);
                 }
-                if (nearer && acceptHit(position, hit.b1, hit.b2)) {
+                if (nearer && acceptHit(position, hit.t)) {
                     best = TraceHit(position, hit.t, hit.b1, hit.b2);
                 }
             }

@@ -6,41 +6,57 @@
 
 layout(std430, binding = 15) readonly buffer TriangleInstances { uint triangle_instances[]; };
 
-// What the traversal's candidates are judged by; set before a ray is traced.
+// Whose rays are traced, and how many were before: what the coverage of partly transparent surfaces is decided by.
 SampleAddress g_address;
 uint g_rays_before;
 
+// Where a ray goes on behind a surface that is not there for it: hits are ordered by (t, triangle), and only later ones count.
+float g_after_t = -1.0;
+uint g_after_triangle = 0u;
+
 uint bvhTriangleOrder(uint position);
 
-bool acceptHit(uint position, float b1, float b2) {
-    if (!kAlpha) return true;
-    uint triangle = bvhTriangleOrder(position);
-    uint instance = triangle_instances[triangle];
-    if ((instances[instance].flags & kInstanceAlpha) == 0u) return true;
-    return covers(instance, triangle - instances[instance].first_triangle, b1, b2, coverageNumber(g_address, g_rays_before, triangle));
-}
+bool acceptHit(uint position, float t) { return !kAlpha || t > g_after_t || bvhTriangleOrder(position) > g_after_triangle; }
 
 #include "bound/traversal.glsl"
 
-// The point moved off its plane towards `direction` by the bound of its error, so that a ray from there cannot meet the plane again.
-vec3 offsetOrigin(Surface s, vec3 direction) {
-    return s.position + (dot(direction, s.face_normal) < 0.0 ? -s.error_bound : s.error_bound) * s.face_normal;
-}
-
-Hit traceNearest(vec3 origin, vec3 direction) {
-    TraceHit t = traceRay(origin, direction, 0.0, uintBitsToFloat(0x7f800000u), false);
-    ++g_rays_before;
+Hit hitOf(TraceHit t) {
     if (t.position == kNoIndex) return kNoHit;
     uint triangle = bvhTriangleOrder(t.position);
     uint instance = triangle_instances[triangle];
     return Hit(instance, triangle - instances[instance].first_triangle, t.b1, t.b2);
 }
 
-// Is anything between origin and origin + t_max * direction?
-bool occluded(vec3 origin, vec3 direction, float t_max) {
-    TraceHit t = traceRay(origin, direction, 0.0, t_max, true);
+// Nearest surface, or with any_hit some surface, that is there for this ray. Coverage is asked once per surface and not inside the traversal,
+// because drivers without branches would filter textures in every step of it.
+Hit trace(vec3 origin, vec3 direction, float t_max, bool any_hit) {
+    g_after_t = -1.0;
+    float t_min = 0.0;
+    Hit hit;
+    while (true) {
+        TraceHit found = traceRay(origin, direction, t_min, t_max, any_hit && !kAlpha);
+        hit = hitOf(found);
+        if (!kAlpha || hit.instance == kNoIndex || (instances[hit.instance].flags & kInstanceAlpha) == 0u) break;
+        uint triangle = instances[hit.instance].first_triangle + hit.primitive;
+        if (covers(hit.instance, hit.primitive, hit.b1, hit.b2, coverageNumber(g_address, g_rays_before, triangle))) break;
+        t_min = found.t;
+        g_after_t = found.t;
+        g_after_triangle = triangle;
+    }
     ++g_rays_before;
-    return t.position != kNoIndex;
+    return hit;
 }
+
+// The point moved off its plane towards `direction` by the bound of its error, so that a ray from there cannot meet the plane again.
+vec3 offsetOrigin(vec3 position, vec3 normal, float error_bound, vec3 direction) {
+    return position + (dot(direction, normal) < 0.0 ? -error_bound : error_bound) * normal;
+}
+
+vec3 offsetOrigin(Surface s, vec3 direction) { return offsetOrigin(s.position, s.face_normal, s.error_bound, direction); }
+
+Hit traceNearest(vec3 origin, vec3 direction) { return trace(origin, direction, uintBitsToFloat(0x7f800000u), false); }
+
+// Is anything between origin and origin + t_max * direction?
+bool occluded(vec3 origin, vec3 direction, float t_max) { return trace(origin, direction, t_max, true).instance != kNoIndex; }
 
 #endif

@@ -15,11 +15,12 @@ layout(rgba32f, binding = 25) uniform image2D squares_low;
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(pixel, imageSize(mean_high)))) return;
-    RunningMean r = RunningMean(TwoFloat4(vec4(0.0), vec4(0.0)), TwoFloat4(vec4(0.0), vec4(0.0)));
-    if (push.count_before > 0u) {
-        r.mean = TwoFloat4(imageLoad(mean_high, pixel), imageLoad(mean_low, pixel));
-        r.squares = TwoFloat4(imageLoad(squares_high, pixel), imageLoad(squares_low, pixel));
-    }
+    // The first sample selects zeros instead of branching: lavapipe compiles a program anew for each value of a push constant that
+    // decides a branch. What the images hold before the first sample is anything, so a product with zero would not do.
+    bvec4 fresh = bvec4(push.count_before == 0u);
+    RunningMean r;
+    r.mean = TwoFloat4(mix(imageLoad(mean_high, pixel), vec4(0.0), fresh), mix(imageLoad(mean_low, pixel), vec4(0.0), fresh));
+    r.squares = TwoFloat4(mix(imageLoad(squares_high, pixel), vec4(0.0), fresh), mix(imageLoad(squares_low, pixel), vec4(0.0), fresh));
     r = addSample(r, imageLoad(radiance_image, pixel), float(push.count_before) + 1.0);
     imageStore(mean_high, pixel, r.mean.high);
     imageStore(mean_low, pixel, r.mean.low);

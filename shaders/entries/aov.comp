@@ -13,12 +13,10 @@ layout(rgba32f, binding = 28) uniform image2D aov_motion;  // XY
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(pixel, imageSize(aov_albedo)))) return;
-    vec4 albedo = vec4(0.0), normal = vec4(0.0), motion = vec4(0.0);
-    if (push.count_before > 0u) {
-        albedo = imageLoad(aov_albedo, pixel);
-        normal = imageLoad(aov_normal, pixel);
-        motion = imageLoad(aov_motion, pixel);
-    }
+    bvec4 fresh = bvec4(push.count_before == 0u);  // selected, not branched on: see accumulate.comp
+    vec4 albedo = mix(imageLoad(aov_albedo, pixel), vec4(0.0), fresh);
+    vec4 normal = mix(imageLoad(aov_normal, pixel), vec4(0.0), fresh);
+    vec4 motion = mix(imageLoad(aov_motion, pixel), vec4(0.0), fresh);
     Hit hit = gbufferHit(pixel);
     if (hit.instance != kNoIndex) {
         Surface s = surfaceAt(hit, gbufferWo(hit, pixel, push.sample_index));

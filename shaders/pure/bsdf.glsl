@@ -1,13 +1,15 @@
-// glTF 2.0 metallic-roughness (Appendix B of its specification) with KHR_materials_specular and KHR_materials_ior: a Lambertian base under a
-// GGX coat. Local frame, +Z is the normal; wo and wi both point away from the surface; only wo.z > 0 and wi.z > 0 reflect.
+// glTF 2.0 metallic-roughness (Appendix B of its specification) with KHR_materials_specular, KHR_materials_ior and KHR_materials_iridescence:
+// a Lambertian base under a GGX coat. Local frame, +Z is the normal; wo and wi both point away from the surface; only wo.z > 0 and wi.z > 0 reflect.
 // Three verbs: evaluate gives f (1/sr, without the cosine), pdf its density (solid angle), sample a direction with its weight f cos / pdf.
 #ifndef LICHT_PURE_BSDF_GLSL
 #define LICHT_PURE_BSDF_GLSL
 
+#include "pure/iridescence.glsl"
 #include "pure/microfacet.glsl"
 #include "shared/effects.h"
 
 layout(constant_id = 5) const bool kGlossy = true;  // kEffectGlossy
+layout(constant_id = 11) const bool kIridescence = true;  // kEffectIridescence
 
 struct Bsdf {
     vec3 diffuse;             // albedo of the base: base colour * (1 - metallic)
@@ -16,6 +18,10 @@ struct Bsdf {
     float f90;                // and at grazing incidence
     float dielectric_f0;      // of the dielectric share alone (largest channel): what the base does not receive
     float dielectric_f90;
+    ThinFilm film;
+    vec3 film_dielectric_f0;  // what lies under the film: the dielectric share
+    vec3 film_metal_f0;       // and the metal
+    float metallic;           // share of the metal
 };
 
 struct BsdfSample {
@@ -25,15 +31,39 @@ struct BsdfSample {
     bool valid;   // false: absorbed
 };
 
-Bsdf lambertBsdf(vec3 albedo) { return Bsdf(albedo, 1.0, vec3(0.0), 0.0, 0.0, 0.0); }
+// Without a film.
+Bsdf plainBsdf(vec3 diffuse, float alpha, vec3 f0, float f90, float dielectric_f0, float dielectric_f90) {
+    return Bsdf(diffuse, alpha, f0, f90, dielectric_f0, dielectric_f90, ThinFilm(0.0, 1.0, 0.0), vec3(0.0), vec3(0.0), 0.0);
+}
+
+Bsdf lambertBsdf(vec3 albedo) { return plainBsdf(albedo, 1.0, vec3(0.0), 0.0, 0.0, 0.0); }
 
 float largest(vec3 c) { return max(c.x, max(c.y, c.z)); }
+
+bool hasFilm(Bsdf b) { return kIridescence && b.film.strength > 0.0; }
+
+struct Layers {
+    vec3 coat;     // reflectance of the coat
+    float passed;  // what it leaves to the base
+};
+
+// cos_h: between wo or wi and the half vector.
+Layers layersAt(Bsdf b, float cos_h) {
+    Layers plain = Layers(fresnelSchlick(b.f0, b.f90, cos_h), 1.0 - fresnelSchlick(vec3(b.dielectric_f0), b.dielectric_f90, cos_h).x);
+    if (!hasFilm(b)) return plain;
+    FilmResponse response = filmResponse(b.film, cos_h);
+    vec3 dielectric = fresnelThinFilm(b.film, response, b.film_dielectric_f0);
+    vec3 metal = fresnelThinFilm(b.film, response, b.film_metal_f0);
+    return Layers(mix(plain.coat, mix(dielectric, metal, b.metallic), b.film.strength),
+                  mix(plain.passed, 1.0 - largest(dielectric), b.film.strength));
+}
 
 // Share of samples spent on the coat: by its reflectance towards wo against the base's.
 float coatProbability(Bsdf b, vec3 wo) {
     float coat = largest(fresnelSchlick(b.f0, b.f90, wo.z));
     float base = largest(b.diffuse);
-    if (coat <= 0.0) return 0.0;
+    // What a film reflects towards wo says little about other half vectors, so its base's coat stands for it; but it reflects by itself.
+    if (coat <= 0.0 && !hasFilm(b)) return 0.0;
     if (base <= 0.0) return 1.0;
     // Never starve a lobe: the estimate of its share is for wo alone.
     return clamp(coat / (coat + base), 0.1, 0.9);
@@ -44,9 +74,9 @@ vec3 bsdfEvaluate(Bsdf b, vec3 wo, vec3 wi) {
     if (!kGlossy) return b.diffuse * kInvPi;
     vec3 h = normalize(wo + wi);
     float cos_h = dot(wo, h);
-    float passed = 1.0 - fresnelSchlick(vec3(b.dielectric_f0), b.dielectric_f90, cos_h).x;
-    vec3 coat = fresnelSchlick(b.f0, b.f90, cos_h) * (ggxD(h, b.alpha) * ggxG2(wo, wi, b.alpha) / (4.0 * wo.z * wi.z));
-    return b.diffuse * (passed * kInvPi) + coat;
+    Layers layers = layersAt(b, cos_h);
+    vec3 coat = layers.coat * (ggxD(h, b.alpha) * ggxG2(wo, wi, b.alpha) / (4.0 * wo.z * wi.z));
+    return b.diffuse * (layers.passed * kInvPi) + coat;
 }
 
 float bsdfPdf(Bsdf b, vec3 wo, vec3 wi) {

@@ -16,7 +16,8 @@ LICHT_CONSTANT uint kEffectLightTriangles = 7u;  // emissive triangles worth sam
 LICHT_CONSTANT uint kEffectPunctualLights = 8u;
 LICHT_CONSTANT uint kEffectEnvironment = 9u;
 LICHT_CONSTANT uint kEffectUnlit = 10u;
-LICHT_CONSTANT uint kEffectCount = 11u;
+LICHT_CONSTANT uint kEffectIridescence = 11u;    // thin films
+LICHT_CONSTANT uint kEffectCount = 12u;
 
 LICHT_SHARED_END
 #endif

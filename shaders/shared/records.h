@@ -27,6 +27,16 @@ struct InstanceRecord {
     uint flags;
 };
 
+// Kinds of texture slots.
+LICHT_CONSTANT uint kSlotBaseColor = 0u;
+LICHT_CONSTANT uint kSlotMetallicRoughness = 1u;
+LICHT_CONSTANT uint kSlotNormal = 2u;
+LICHT_CONSTANT uint kSlotEmissive = 3u;
+LICHT_CONSTANT uint kSlotSpecular = 4u;
+LICHT_CONSTANT uint kSlotSpecularColor = 5u;
+LICHT_CONSTANT uint kSlotIridescence = 6u;
+LICHT_CONSTANT uint kSlotIridescenceThickness = 7u;
+
 LICHT_CONSTANT uint kSlotLinear = 1u;       // bilinear filter
 LICHT_CONSTANT uint kSlotWrapUShift = 1u;   // two bits each: 0 repeat, 1 clamp, 2 mirror
 LICHT_CONSTANT uint kSlotWrapVShift = 3u;
@@ -70,6 +80,10 @@ struct MaterialRecord {
     float normal_scale;
     float alpha_cutoff;
     uint flags;
+    float iridescence;
+    float iridescence_ior;
+    float iridescence_thickness_minimum;  // nm
+    float iridescence_thickness_maximum;  // and without a texture
     uint reserved0;
     uint reserved1;
     uint reserved2;
@@ -79,6 +93,8 @@ struct MaterialRecord {
     TextureSlotRecord emissive_slot;
     TextureSlotRecord specular_slot;
     TextureSlotRecord specular_color_slot;
+    TextureSlotRecord iridescence_slot;
+    TextureSlotRecord iridescence_thickness_slot;
 };
 
 LICHT_CONSTANT uint kLightTriangle = 0u;
@@ -159,6 +175,11 @@ LICHT_CONSTANT uint kDimensionAlpha = 0x80000000u; // + rays traced so far: cove
 
 // Specialisation constants beside the effects.
 LICHT_CONSTANT uint kConstantDirectMis = 32u;
+LICHT_CONSTANT uint kConstantBvhInStorage = 64u;
+LICHT_CONSTANT uint kConstantBvhStackSize = 65u;
+LICHT_CONSTANT uint kConstantTexturePages = 66u;
+LICHT_CONSTANT uint kConstantTextureSlotKinds = 67u;
+LICHT_CONSTANT uint kConstantWideTexels = 68u;
 
 // Counted on the device, summed on the host.
 struct CounterRecord {

@@ -146,7 +146,7 @@ TEST_P(EveryScene, TracedPrimaryHitsAreTheRasterisedOnes) {
     frame.view = makeView(scene.cameras[0], size, gpu_scene.bounds());
     frame.previous_view = frame.view;
     gpu_scene.describe(frame);
-    gpu::Buffer frame_buffer(device, "frame", sizeof(frame), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, gpu::Memory::host_write);
+    gpu::Buffer frame_buffer(device, "frame", sizeof(frame), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Memory::host_write);
     std::memcpy(frame_buffer.mapped(), &frame, sizeof(frame));
     struct Outcome {
         uint hits, different, far_away, lost;
