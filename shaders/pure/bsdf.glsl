@@ -1,5 +1,5 @@
 // glTF 2.0 metallic-roughness (Appendix B of its specification) with KHR_materials_specular, KHR_materials_ior and KHR_materials_iridescence:
-// a Lambertian base under a GGX coat. Local frame, +Z is the normal; wo and wi both point away from the surface; only wo.z > 0 and wi.z > 0 reflect.
+// a Lambertian base under a GGX coat. The base receives what the coat passes (passedByCoat). Local frame, +Z is the normal; wo and wi both point away from the surface; only wo.z > 0 and wi.z > 0 reflect.
 // Three verbs: evaluate gives f (1/sr, without the cosine), pdf its density (solid angle), sample a direction with its weight f cos / pdf.
 #ifndef LICHT_PURE_BSDF_GLSL
 #define LICHT_PURE_BSDF_GLSL
@@ -42,14 +42,27 @@ float largest(vec3 c) { return max(c.x, max(c.y, c.z)); }
 
 bool hasFilm(Bsdf b) { return kIridescence && b.film.strength > 0.0; }
 
+// What a dielectric coat leaves to the base, for a pair of directions: it passes on the way in and on the way out, and the division makes
+// the base's albedo towards wo exactly diffuse * (1 - F(wo)), so that coat and base together never give more than they get. glTF's own
+// formula, 1 - F(half vector), gives up to 1.4 times what it gets near grazing. Reciprocal. Kelemen and Szirmay-Kalos 2001, A Microfacet
+// Based Coupled Specular-Matte BRDF Model with Importance Sampling.
+float passedByCoat(Bsdf b, float cos_o, float cos_i) {
+    vec3 f0 = vec3(b.dielectric_f0);
+    float out_passed = 1.0 - fresnelSchlick(f0, b.dielectric_f90, cos_o).x;
+    float in_passed = 1.0 - fresnelSchlick(f0, b.dielectric_f90, cos_i).x;
+    // Mean over the hemisphere of 1 - F: the integral of 2 c (1 - c)^5 is 1/21.
+    float mean_passed = 1.0 - mix(b.dielectric_f0, b.dielectric_f90, 1.0 / 21.0);
+    return mean_passed > 0.0 ? out_passed * in_passed / mean_passed : 0.0;
+}
+
 struct Layers {
     vec3 coat;     // reflectance of the coat
-    float passed;  // what it leaves to the base
+    float passed;  // what a film leaves to the layers below; 1 without one
 };
 
 // cos_h: between wo or wi and the half vector.
 Layers layersAt(Bsdf b, float cos_h) {
-    Layers plain = Layers(fresnelSchlick(b.f0, b.f90, cos_h), 1.0 - fresnelSchlick(vec3(b.dielectric_f0), b.dielectric_f90, cos_h).x);
+    Layers plain = Layers(fresnelSchlick(b.f0, b.f90, cos_h), 1.0);
     if (!hasFilm(b)) return plain;
     FilmResponse response = filmResponse(b.film, cos_h);
     vec3 dielectric = fresnelThinFilm(b.film, response, b.film_dielectric_f0);
@@ -76,7 +89,7 @@ vec3 bsdfEvaluate(Bsdf b, vec3 wo, vec3 wi) {
     float cos_h = dot(wo, h);
     Layers layers = layersAt(b, cos_h);
     vec3 coat = layers.coat * (ggxD(h, b.alpha) * ggxG2(wo, wi, b.alpha) / (4.0 * wo.z * wi.z));
-    return b.diffuse * (layers.passed * kInvPi) + coat;
+    return b.diffuse * (layers.passed * passedByCoat(b, wo.z, wi.z) * kInvPi) + coat;
 }
 
 float bsdfPdf(Bsdf b, vec3 wo, vec3 wi) {

@@ -1,4 +1,6 @@
 // Every record has the same members at the same offsets in C++ and in the compiled shaders.
+#include "licht/shared/records.h"
+
 #include <gtest/gtest.h>
 
 #include <cstddef>
@@ -13,7 +15,6 @@
 
 #include "licht/gpu/program.h"
 #include "licht/shared/bvh_layout.h"
-#include "licht/shared/records.h"
 #include "licht/spirv/records_comp.h"
 
 namespace licht {
@@ -46,7 +47,14 @@ ReflectedMember member(std::string name, std::size_t offset, std::size_t size) {
     return {std::move(name), static_cast<std::uint32_t>(offset), static_cast<std::uint32_t>(size)};
 }
 
-#define LICHT_RECORD(record, ...) {#record, Record{sizeof(record), memberCount<record>(), {__VA_ARGS__}}}
+#define LICHT_RECORD(record, ...)                    \
+    {                                                \
+#record, Record {                            \
+            sizeof(record), memberCount<record>(), { \
+                __VA_ARGS__                          \
+            }                                        \
+        }                                            \
+    }
 #define LICHT_MEMBER(record, name) member(#name, offsetof(record, name), sizeof(record::name))
 
 std::map<std::string, Record> hostRecords() {
@@ -70,11 +78,15 @@ std::map<std::string, Record> hostRecords() {
             LICHT_MEMBER(MaterialRecord, roughness), LICHT_MEMBER(MaterialRecord, specular),
             LICHT_MEMBER(MaterialRecord, dielectric_f0), LICHT_MEMBER(MaterialRecord, normal_scale),
             LICHT_MEMBER(MaterialRecord, alpha_cutoff), LICHT_MEMBER(MaterialRecord, flags),
+            LICHT_MEMBER(MaterialRecord, iridescence), LICHT_MEMBER(MaterialRecord, iridescence_ior),
+            LICHT_MEMBER(MaterialRecord, iridescence_thickness_minimum),
+            LICHT_MEMBER(MaterialRecord, iridescence_thickness_maximum),
             LICHT_MEMBER(MaterialRecord, reserved0), LICHT_MEMBER(MaterialRecord, reserved1),
             LICHT_MEMBER(MaterialRecord, reserved2), LICHT_MEMBER(MaterialRecord, base_color_slot),
             LICHT_MEMBER(MaterialRecord, metallic_roughness_slot), LICHT_MEMBER(MaterialRecord, normal_slot),
             LICHT_MEMBER(MaterialRecord, emissive_slot), LICHT_MEMBER(MaterialRecord, specular_slot),
-            LICHT_MEMBER(MaterialRecord, specular_color_slot)),
+            LICHT_MEMBER(MaterialRecord, specular_color_slot), LICHT_MEMBER(MaterialRecord, iridescence_slot),
+            LICHT_MEMBER(MaterialRecord, iridescence_thickness_slot)),
         LICHT_RECORD(LightRecord, LICHT_MEMBER(LightRecord, position), LICHT_MEMBER(LightRecord, kind),
                      LICHT_MEMBER(LightRecord, direction), LICHT_MEMBER(LightRecord, range),
                      LICHT_MEMBER(LightRecord, intensity), LICHT_MEMBER(LightRecord, cone_scale),

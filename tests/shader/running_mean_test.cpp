@@ -36,15 +36,15 @@ TEST(RunningMean, followsDoublePrecision) {
     for (vec4& value : values)
         for (int c = 0; c < 4; ++c) value[c] = std::exp(normal(random));
     test::Kernel kernel("running mean", running_mean_comp);
-    const auto answers =
-        kernel.run<vec4>(kThreads, std::size_t{5} * kThreads, Push{kThreads, kCount, 0, kThreads, vec4(0.0F)}, values);
+    const auto answers = kernel.run<vec4>(kThreads, std::size_t{5} * kThreads,
+                                          Push{kThreads, kCount, 0, kThreads, vec4(0.0F)}, values);
     double worst_mean = 0.0;
     double worst_naive = 0.0;
     for (std::uint32_t i = 0; i < kThreads; ++i) {
         for (int c = 0; c < 4; ++c) {
             double mean = 0.0;
             double squares = 0.0;
-            double way = 0.0;             // sum of |delta|
+            double way = 0.0;            // sum of |delta|
             double squares_error = 0.0;  // bound
             double mean_error = 0.0;     // bound
             for (std::uint32_t k = 0; k < kCount; ++k) {
@@ -58,12 +58,14 @@ TEST(RunningMean, followsDoublePrecision) {
                 // 8 u |delta| / n; the error that is there shrinks by (n - 1) / n.
                 mean_error = 8.0 * kUnit * way / (k + 1.0);
                 // delta, delta after and their product round five times; both deltas carry the mean's error.
-                squares_error += 8.0 * kUnit * std::abs(delta * after) + (std::abs(delta) + std::abs(after)) * mean_error;
+                squares_error +=
+                    8.0 * kUnit * std::abs(delta * after) + (std::abs(delta) + std::abs(after)) * mean_error;
             }
             EXPECT_NEAR(sum(answers, 5 * i, c), mean, mean_error);
             EXPECT_NEAR(sum(answers, 5 * i + 2, c), squares, squares_error);
             worst_mean = std::max(worst_mean, std::abs(sum(answers, 5 * i, c) / mean - 1.0));
-            worst_naive = std::max(worst_naive, std::abs(static_cast<double>(answers[5 * i + 4][c]) / mean - 1.0));
+            worst_naive =
+                std::max(worst_naive, std::abs(static_cast<double>(answers[5 * i + 4][c]) / mean - 1.0));
         }
     }
     RecordProperty("worst_mean", std::to_string(worst_mean / kUnit));
@@ -77,7 +79,8 @@ TEST(RunningMean, doesNotStall) {
     test::Kernel kernel("running mean", running_mean_comp);
     const auto answers =
         kernel.run<vec4>(1, 5, Push{1, kCount, kBefore, 0, vec4(1.0F)}, std::vector<vec4>{vec4(value)});
-    // All steps together move the mean by this, and each is right to 8 u, one of them for the count as a float.
+    // All steps together move the mean by this, and each is right to 8 u, one of them for the count as a
+    // float.
     const double way = (static_cast<double>(value) - 1.0) * kCount / (kBefore + static_cast<double>(kCount));
     EXPECT_GT(way, 4.0 * kUnit) << "fp32 could show it";
     const double error = 9.0 * kUnit * way;

@@ -29,7 +29,8 @@ struct Push {
 std::vector<vec4> greySweep(std::uint32_t count) {
     std::vector<vec4> colors;
     for (std::uint32_t i = 0; i < count; ++i)
-        colors.emplace_back(std::bit_cast<float>(static_cast<std::uint32_t>(std::uint64_t{kLargestFinite} * i / (count - 1))));
+        colors.emplace_back(std::bit_cast<float>(
+            static_cast<std::uint32_t>(std::uint64_t{kLargestFinite} * i / (count - 1))));
     return colors;
 }
 
@@ -39,9 +40,10 @@ std::vector<vec4> mixedColors(std::uint32_t count) {
     std::uniform_real_distribution<float> common(0.0F, 4.0F);
     std::vector<vec4> colors;
     for (std::uint32_t i = 0; i < count; ++i)
-        colors.push_back(i % 2 == 0 ? vec4(std::bit_cast<float>(any(random)), std::bit_cast<float>(any(random)),
-                                           std::bit_cast<float>(any(random)), 0.0F)
-                                    : vec4(common(random), common(random), common(random), 0.0F));
+        colors.push_back(i % 2 == 0
+                             ? vec4(std::bit_cast<float>(any(random)), std::bit_cast<float>(any(random)),
+                                    std::bit_cast<float>(any(random)), 0.0F)
+                             : vec4(common(random), common(random), common(random), 0.0F));
     for (int c = 0; c < 3; ++c) {  // pure primaries, as bright as can be
         vec4 primary(0.0F);
         primary[c] = std::bit_cast<float>(kLargestFinite);
@@ -69,7 +71,8 @@ TEST(Tonemap, everyFiniteColourGivesADisplayColour) {
                 const float light = answers[2 * i][c];
                 const float encoded = answers[2 * i + 1][c];
                 ASSERT_TRUE(std::isfinite(light)) << curve << ": " << colors[i][c];
-                ASSERT_TRUE(encoded >= 0.0F && encoded <= 1.0F) << curve << ": " << colors[i][c] << " " << encoded;
+                ASSERT_TRUE(encoded >= 0.0F && encoded <= 1.0F)
+                    << curve << ": " << colors[i][c] << " " << encoded;
                 const float expected = srgbFromLinear(std::clamp(light, 0.0F, 1.0F));
                 worst = std::max(worst, static_cast<double>(std::abs(encoded - expected)));
             }
@@ -102,9 +105,11 @@ TEST(Tonemap, neutralKeepsBaseColours) {
         const auto y = static_cast<double>(answers[2 * i].x);
         // Constants and three operations round, each by u of values below one.
         const double tolerance = 8.0 * kUnit;
-        if (x < 0.08) EXPECT_NEAR(y, 6.25 * x * x, tolerance);
-        if (x >= 0.08 && x < 0.8) EXPECT_NEAR(y, x - 0.04, tolerance);
-        if (x > 0.801) EXPECT_LT(y, x - 0.04);
+        if (x < 0.8) {
+            EXPECT_NEAR(y, x < 0.08 ? 6.25 * x * x : x - 0.04, tolerance) << x;
+        } else if (x > 0.801) {
+            EXPECT_LT(y, x - 0.04);
+        }
         EXPECT_EQ(answers[2 * i].x, answers[2 * i].y);
         EXPECT_EQ(answers[2 * i].x, answers[2 * i].z);
     }
@@ -114,7 +119,8 @@ TEST(Tonemap, neutralNeverDarkensWithMoreLight) {
     const std::vector<vec4> answers = mapped(greySweep(1U << 20U), kTonemapNeutral);
     for (std::size_t i = 2; i < answers.size(); i += 2) {
         // The compressed value takes eight operations below one.
-        ASSERT_GE(static_cast<double>(answers[i].x), static_cast<double>(answers[i - 2].x) - 8.0 * kUnit) << i / 2;
+        ASSERT_GE(static_cast<double>(answers[i].x), static_cast<double>(answers[i - 2].x) - 8.0 * kUnit)
+            << i / 2;
     }
 }
 

@@ -10,7 +10,7 @@ layout(push_constant) uniform Push {
     uint stride;   // not 0: ray i accepts position i * stride alone
 } push;
 
-bool acceptHit(uint position, float b1, float b2) {
+bool acceptHit(uint position, float t) {
     bool wanted = push.stride == 0u || position == gl_GlobalInvocationID.x * push.stride;
     return wanted && (push.refused == 0u || position % push.refused != 0u);
 }

@@ -1,0 +1,136 @@
+#pragma once
+// The scattering function once more, in double precision, by the textbook formulas with angles: the naive
+// reference of pure/bsdf.glsl. And what the tests of it share.
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "licht/core/math.h"
+#include "licht/shared/seam.h"
+
+namespace licht::test {
+
+using dvec3 = glm::dvec3;
+
+/// As in pure/bsdf.glsl.
+struct Material {
+    vec3 diffuse{0.0F};
+    float alpha = 1.0F;
+    vec3 f0{0.0F};
+    float f90 = 0.0F;
+    float dielectric_f0 = 0.0F;
+    float dielectric_f90 = 0.0F;
+};
+
+struct NamedMaterial {
+    std::string name;
+    Material material;
+};
+
+/// A coat that reflects everything.
+inline Material mirror(float alpha) {
+    return {vec3(0.0F), alpha, vec3(1.0F), 1.0F, 0.0F, 0.0F};
+}
+
+inline Material plastic(vec3 albedo, float alpha, float f0, float f90) {
+    return {albedo, alpha, vec3(f0), f90, f0, f90};
+}
+
+inline std::vector<NamedMaterial> materials() {
+    return {
+        {"Lambert", {vec3(0.9F, 0.5F, 0.1F)}},
+        {"smooth plastic", plastic(vec3(0.8F, 0.4F, 0.2F), 1e-3F, 0.04F, 1.0F)},
+        {"plastic", plastic(vec3(0.8F, 0.4F, 0.2F), 0.1F, 0.04F, 1.0F)},
+        {"rough plastic", plastic(vec3(0.8F, 0.4F, 0.2F), 1.0F, 0.04F, 1.0F)},
+        {"plastic without specular", plastic(vec3(0.5F), 0.3F, 0.0F, 0.0F)},
+        {"plastic with half a specular", plastic(vec3(0.5F), 0.3F, 0.02F, 0.5F)},
+        {"half a metal", {vec3(0.4F, 0.2F, 0.1F), 0.3F, vec3(0.5F, 0.3F, 0.2F), 1.0F, 0.04F, 1.0F}},
+        {"polished gold", {vec3(0.0F), 1e-3F, vec3(1.0F, 0.78F, 0.34F), 1.0F, 0.04F, 1.0F}},
+        {"satin gold", {vec3(0.0F), 0.05F, vec3(1.0F, 0.78F, 0.34F), 1.0F, 0.04F, 1.0F}},
+        {"rough gold", {vec3(0.0F), 0.6F, vec3(1.0F, 0.78F, 0.34F), 1.0F, 0.04F, 1.0F}},
+        {"white", mirror(0.25F)},
+        {"roughest white", mirror(1.0F)},
+    };
+}
+
+/// Off the axes, so that x and y both matter.
+inline vec3 outgoing(double cosine) {
+    const double sine = std::sqrt(1.0 - cosine * cosine);
+    return {sine * std::cos(0.7), sine * std::sin(0.7), cosine};
+}
+
+namespace reference {
+
+inline double tan2(const dvec3& w) {
+    return (w.x * w.x + w.y * w.y) / (w.z * w.z);
+}
+
+/// Walter et al. 2007, equation 33, by tangents.
+inline double distribution(const dvec3& h, double alpha) {
+    const double c4 = h.z * h.z * h.z * h.z;
+    const double s = alpha * alpha + tan2(h);
+    return alpha * alpha / (std::numbers::pi * c4 * s * s);
+}
+
+/// Heitz 2014, equation 72.
+inline double lambda(const dvec3& w, double alpha) {
+    return (std::sqrt(1.0 + alpha * alpha * tan2(w)) - 1.0) / 2.0;
+}
+
+inline double fresnel(double f0, double f90, double cosine) {
+    return f0 + (f90 - f0) * std::pow(1.0 - cosine, 5.0);
+}
+
+inline double f(const Material& m, int channel, const dvec3& wo, const dvec3& wi) {
+    const dvec3 h = glm::normalize(wo + wi);
+    const auto alpha = static_cast<double>(m.alpha);
+    const double cosine = glm::dot(wo, h);
+    const double coat = fresnel(static_cast<double>(m.f0[channel]), static_cast<double>(m.f90), cosine) *
+                        distribution(h, alpha) / (1.0 + lambda(wo, alpha) + lambda(wi, alpha)) /
+                        (4.0 * wo.z * wi.z);
+    const double lost =
+        fresnel(static_cast<double>(m.dielectric_f0), static_cast<double>(m.dielectric_f90), cosine);
+    return static_cast<double>(m.diffuse[channel]) * (1.0 - lost) / std::numbers::pi + coat;
+}
+
+inline double coatShare(const Material& m, const dvec3& wo) {
+    double coat = 0.0;
+    double base = 0.0;
+    for (int c = 0; c < 3; ++c) {
+        coat = std::max(coat, fresnel(static_cast<double>(m.f0[c]), static_cast<double>(m.f90), wo.z));
+        base = std::max(base, static_cast<double>(m.diffuse[c]));
+    }
+    if (coat == 0.0) return 0.0;
+    return base == 0.0 ? 1.0 : std::clamp(coat / (coat + base), 0.1, 0.9);
+}
+
+/// Density of visible normals, solid angle of h. Heitz 2014, equation 19.
+inline double visibleNormals(double alpha, const dvec3& wo, const dvec3& h) {
+    return std::max(glm::dot(wo, h), 0.0) * distribution(h, alpha) / (wo.z * (1.0 + lambda(wo, alpha)));
+}
+
+inline double pdf(const Material& m, const dvec3& wo, const dvec3& wi) {
+    const double share = coatShare(m, wo);
+    const dvec3 h = glm::normalize(wo + wi);
+    const double coat =
+        share > 0.0 ? visibleNormals(static_cast<double>(m.alpha), wo, h) / (4.0 * glm::dot(wo, h)) : 0.0;
+    return share * coat + (1.0 - share) * wi.z / std::numbers::pi;
+}
+
+}  // namespace reference
+
+/// Normals as angles that fit the lobe: tan(theta) = alpha tan(psi), so that every alpha looks alike.
+struct NormalCell {
+    dvec3 h;
+    double solid_angle;  ///< per unit of psi and phi
+};
+
+inline NormalCell normalAt(double alpha, double psi, double phi) {
+    const double t = alpha * std::tan(psi);
+    const double c = 1.0 / std::sqrt(1.0 + t * t);
+    return {{c * t * std::cos(phi), c * t * std::sin(phi), c},
+            c * c * c * t * alpha / (std::cos(psi) * std::cos(psi))};
+}
+
+}  // namespace licht::test
