@@ -1,5 +1,6 @@
 // glTF 2.0 metallic-roughness (Appendix B of its specification) with KHR_materials_specular, KHR_materials_ior and KHR_materials_iridescence:
-// a Lambertian base under a GGX coat. The base receives what the coat passes (passedByCoat). Local frame, +Z is the normal; wo and wi both point away from the surface; only wo.z > 0 and wi.z > 0 reflect.
+// a Lambertian base under a GGX coat. The base receives what the coat passes (passedByCoat). Local frame, +Z is the normal; wo and wi both
+// point away from the surface; only wo.z > 0 and wi.z > 0 reflect.
 // Three verbs: evaluate gives f (1/sr, without the cosine), pdf its density (solid angle), sample a direction with its weight f cos / pdf.
 #ifndef LICHT_PURE_BSDF_GLSL
 #define LICHT_PURE_BSDF_GLSL

@@ -113,10 +113,15 @@ TEST_P(EveryScene, SpecialisedProgramsGiveTheSamePicture) {
     everything.all_effects = true;
     const Film a = renderFilm(scene, scene.cameras[0], small(), 16);
     const Film b = renderFilm(scene, scene.cameras[0], everything, 16);
+    // Where most of the scene shines, the specialised program does not sample lights at all: another estimator of the same picture.
+    const Effects effects = detectEffects(scene);
+    const bool same_estimator = effects.has(kEffectLightTriangles) || !effects.has(kEffectEmission);
     std::size_t different = 0;
     for (std::size_t i = 0; i < a.mean.texels.size(); ++i)
         different += std::abs(a.mean.texels[i] - b.mean.texels[i]) > 1e-5F * std::abs(b.mean.texels[i]) ? 1U : 0U;
-    EXPECT_LE(static_cast<double>(different), 0.01 * static_cast<double>(a.mean.texels.size()));
+    if (same_estimator) {
+        EXPECT_LE(static_cast<double>(different), 0.01 * static_cast<double>(a.mean.texels.size()));
+    }
     expectSamePicture(a, b, std::string("specialised_") + GetParam());
 }
 

@@ -1,6 +1,8 @@
 // The built-in scenes against stored means and variances (tests/image/references, made by update_references.sh with another seed).
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "licht/image/exr.h"
 #include "licht/measure/ztest.h"
 #include "licht/scenes/builtin.h"
@@ -9,8 +11,9 @@
 namespace licht {
 namespace {
 
-Film readReference(const std::string& name) {
-    const ExrPicture picture = readExr(std::string(LICHT_REFERENCES) + "/" + name + ".exr");
+ExrPicture readStored(const std::string& name) { return readExr(std::string(LICHT_REFERENCES) + "/" + name + ".exr"); }
+
+Film readReference(const ExrPicture& picture) {
     Film film;
     film.size = uvec2(picture.width, picture.height);
     film.mean = Image(picture.width, picture.height, 4);
@@ -33,9 +36,14 @@ Film readReference(const std::string& name) {
 class Screenshot : public testing::TestWithParam<const char*> {};
 
 TEST_P(Screenshot, IsTheStoredPicture) {
-    const Scene scene = *makeBuiltinScene(GetParam());
-    const Film reference = readReference(GetParam());
+    Scene scene = *makeBuiltinScene(GetParam());
+    if (isDark(scene)) scene.environment = constantEnvironment(vec3(1.0F));  // as the program does that made the references
+    const ExrPicture stored = readStored(GetParam());
+    const Film reference = readReference(stored);
     RenderSettings settings;
+    const auto bounces = std::find_if(stored.attributes.begin(), stored.attributes.end(), [](const auto& a) { return a.first == "licht.bounces"; });
+    ASSERT_NE(bounces, stored.attributes.end());
+    settings.bounces = static_cast<std::uint32_t>(std::stoul(bounces->second));
     settings.size = reference.size;
     settings.seed = 1;
     const Film film = renderFilm(scene, scene.cameras[0], settings, 256);
@@ -44,7 +52,7 @@ TEST_P(Screenshot, IsTheStoredPicture) {
 
 // The test can fail: a picture that is one percent brighter is another picture.
 TEST(ScreenshotTest, SeesASmallDifference) {
-    const Film reference = readReference("cornell");
+    const Film reference = readReference(readStored("cornell"));
     Film brighter = reference;
     for (float& value : brighter.mean.texels) value *= 1.01F;
     const Image brighter_color = colorOf(brighter);

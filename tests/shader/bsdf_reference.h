@@ -82,6 +82,15 @@ inline double fresnel(double f0, double f90, double cosine) {
     return f0 + (f90 - f0) * std::pow(1.0 - cosine, 5.0);
 }
 
+/// Kelemen and Szirmay-Kalos 2001: the coat's transmittance towards both directions over its mean by cosine,
+/// which 20 / 21 of f0 and 1 / 21 of f90 make.
+inline double passed(const Material& m, double cos_o, double cos_i) {
+    const auto f0 = static_cast<double>(m.dielectric_f0);
+    const auto f90 = static_cast<double>(m.dielectric_f90);
+    return (1.0 - fresnel(f0, f90, cos_o)) * (1.0 - fresnel(f0, f90, cos_i)) /
+           (1.0 - (20.0 * f0 + f90) / 21.0);
+}
+
 inline double f(const Material& m, int channel, const dvec3& wo, const dvec3& wi) {
     const dvec3 h = glm::normalize(wo + wi);
     const auto alpha = static_cast<double>(m.alpha);
@@ -89,9 +98,7 @@ inline double f(const Material& m, int channel, const dvec3& wo, const dvec3& wi
     const double coat = fresnel(static_cast<double>(m.f0[channel]), static_cast<double>(m.f90), cosine) *
                         distribution(h, alpha) / (1.0 + lambda(wo, alpha) + lambda(wi, alpha)) /
                         (4.0 * wo.z * wi.z);
-    const double lost =
-        fresnel(static_cast<double>(m.dielectric_f0), static_cast<double>(m.dielectric_f90), cosine);
-    return static_cast<double>(m.diffuse[channel]) * (1.0 - lost) / std::numbers::pi + coat;
+    return static_cast<double>(m.diffuse[channel]) * passed(m, wo.z, wi.z) / std::numbers::pi + coat;
 }
 
 inline double coatShare(const Material& m, const dvec3& wo) {

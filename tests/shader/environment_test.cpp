@@ -103,7 +103,7 @@ public:
         frame.environment_size = uvec2(map.width, map.height);
         frame.seed = 7;
         frame_ = gpu::uploadBuffer(gpu::testDevice(), "FrameBlock", std::span<const FrameRecord>(&frame, 1),
-                                   VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
+                                   VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
         alias_ = gpu::uploadBuffer(gpu::testDevice(), "EnvironmentAlias",
                                    std::span<const AliasRecord>(table_), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
         std::vector<vec4> texels;

@@ -191,7 +191,9 @@ TEST(ThinFilm, mixesByStrengthAndMetal) {
         EXPECT_NEAR(d(a[0].coat[c]), 0.5 * d(a[0].plain[c]) + 0.5 * film, 8.0 * kUnit);
     }
     const double passed = 1.0 - d(std::max({a[1].film.x, a[1].film.y, a[1].film.z}));
-    EXPECT_NEAR(d(a[0].coat.w), 0.5 * d(a[0].plain.w) + 0.5 * passed, 4.0 * kUnit);
+    // Without a film all passes here: what the coat keeps depends on both directions, not on the half vector.
+    EXPECT_EQ(a[0].plain.w, 1.0F);
+    EXPECT_NEAR(d(a[0].coat.w), 0.5 + 0.5 * passed, 4.0 * kUnit);
 }
 
 TEST(ThinFilm, isReciprocal) {
@@ -210,8 +212,10 @@ TEST(ThinFilm, isReciprocal) {
 
 TEST(ThinFilm, samplesCarryNoMoreThanArrives) {
     constexpr std::size_t kSamples = std::size_t{1} << 14U;
-    // The strongest film and base: without a base under it, nothing may be gained. (With one, glTF's layering
-    // by the half vector of each pair of directions is not energy conserving at grazing angles, film or not.)
+    // No base under it: what passes the film is taken at the half vector, so a film that reflects much
+    // towards wo and little at half vectors of other pairs leaves a white base up to an eighth too much
+    // (measured: index 1.8, 300 nm, f0 = 0, smooth, cosine 0.3). Without a film bsdf_test holds both together
+    // to one.
     for (const float cosine : {1.0F, 0.7F, 0.3F, 0.05F}) {
         for (const float thickness : {100.0F, 250.0F, 400.0F}) {
             for (const float f0 : {0.04F, 1.0F}) {

@@ -7,7 +7,7 @@
 layout(local_size_x = 1) in;
 
 layout(push_constant) uniform Push { SamplePush sample_push; TonemapPush tonemap_push; };
-layout(std140, binding = 0) uniform FrameBlock { FrameRecord frame; };  // with its ViewRecord
+layout(std430, binding = 0) readonly buffer FrameBlock { FrameRecord frame; };  // with its ViewRecord
 layout(std430, binding = 1) readonly buffer Vertices { VertexRecord vertices[]; };
 layout(std430, binding = 2) readonly buffer Instances { InstanceRecord instances[]; };
 layout(std430, binding = 3) readonly buffer Slots { TextureSlotRecord slots[]; };
