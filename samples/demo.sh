@@ -14,7 +14,7 @@ report=out/gallery.json
 mkdir -p out
 # What was rendered by this very program need not be rendered again.
 if [ $# -gt 0 ] || [ ! -e $report ] || [ ! -e out/gallery.png ] || [ ! -e out/gallery.exr ] || [ "$licht" -nt $report ]; then
-    if [ $# = 0 ]; then set -- --size 960x540 --time 60; fi
+    if [ $# = 0 ]; then set -- --size 640x360 --time 120; fi
     "$licht" render gallery -o out/gallery.png -o out/gallery.exr --aov all --report $report "$@"
 fi
 

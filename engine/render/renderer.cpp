@@ -67,9 +67,12 @@ struct Renderer::State {
         statistics.upload_seconds = secondsSince(upload_start) - statistics.bvh_seconds;
         const Clock::time_point start = Clock::now();
         programs.emplace(device, constantsOf(effects, gpu_scene, settings), settings.aovs.any());
-        statistics.pipeline_seconds = secondsSince(start);
         resize(settings.size);
+        runEveryProgramOnce();
+        statistics.pipeline_seconds = secondsSince(start);
     }
+
+    void runEveryProgramOnce();
 
     void resize(uvec2 size);
     void writeFrame(const ViewRecord& view, const ViewRecord& previous);
@@ -92,6 +95,22 @@ struct Renderer::State {
     ViewRecord view{};
     RenderStatistics statistics;
 };
+
+// Some drivers compile at first use. Done here, on one row of the picture, so that compiling is told from rendering; nothing of it is kept.
+void Renderer::State::runEveryProgramOnce() {
+    SamplePush push{};
+    push.row_count = 1;
+    gpu::Commands commands(device);
+    commands.begin();
+    recordGbuffer(commands, programs->gbuffer, gbuffer_bindings, gpu_scene, *history, push);
+    recordPath(commands, programs->path, slots[0].path, *history, slots[0].counters, push);
+    recordAccumulate(commands, programs->accumulate, accumulate_bindings, *history, push);
+    if (settings.aovs.any()) recordLayers(commands, programs->layers, layer_bindings, *history, push);
+    recordTonemap(commands, programs->tonemap, tonemap_bindings, *history, TonemapPush{});
+    commands.submit();
+    commands.wait();
+    std::memset(slots[0].counters.mapped(), 0, sizeof(CounterRecord));
+}
 
 void Renderer::State::resize(uvec2 size) {
     settings.size = size;

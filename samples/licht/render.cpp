@@ -62,6 +62,18 @@ void describeRun(RenderReport& report, const gpu::Device& device, const Renderer
     report.device_peak_bytes = device.devicePeakBytes();
 }
 
+/// What makes a picture doubtful is said, not only reported.
+void warnOfDoubts(const RenderStatistics& statistics) {
+    if (statistics.nonfinite_samples > 0)
+        fmt::print(stderr, "licht: warning: {} samples were no finite number and count as black\n",
+                   statistics.nonfinite_samples);
+    if (statistics.cut_walks > 0)
+        fmt::print(stderr,
+                   "licht: warning: in {} samples the driver ended the search for a hit early; surfaces may be "
+                   "missing\n",
+                   statistics.cut_walks);
+}
+
 }  // namespace
 
 int render(const RenderOptions& options) {
@@ -110,6 +122,7 @@ int render(const RenderOptions& options) {
         if (!options.quiet) fmt::print("wrote {} ({}x{})\n", output.string(), shot.size.x, shot.size.y);
     }
     report.statistics = renderer.statistics();
+    if (!options.quiet) warnOfDoubts(report.statistics);
     report.host_peak_bytes = hostPeakBytes();
     report.total_seconds = secondsSinceProcessStart();
     if (options.report) {

@@ -1,4 +1,4 @@
-// The transfer curve of IEC 61966-2-1 (sRGB), per channel.
+// The transfer curve of IEC 61966-2-1:1999 (sRGB), per channel, with the standard's own rounded constants; encoded and linear in [0,1].
 #ifndef LICHT_SHARED_TRANSFER_H
 #define LICHT_SHARED_TRANSFER_H
 #include "seam.h"

@@ -1,6 +1,7 @@
 // What must not depend on how a picture is computed.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 
 #include "licht/gpu/commands.h"
@@ -101,6 +102,29 @@ TEST(Estimators, RouletteKeepsThePicture) {
     roulette.roulette_start = 0;
     roulette.seed = 10;
     expectSamePicture(renderFilm(scene, scene.cameras[0], roulette, 512), renderFilm(scene, scene.cameras[0], small(), 256), "roulette");
+}
+
+// What a scene does not call for has no memory: its name in the shaders is bound to the few zero bytes that stand for "none".
+TEST(Effects, AbsentOnesOwnNoBuffers) {
+    gpu::Device& device = gpu::testDevice();
+    const auto absent = [&](const char* scene_name) {
+        const Scene scene = builtin(scene_name);
+        const GpuScene gpu_scene(device, scene, detectEffects(scene), {});
+        std::vector<std::string> names;
+        for (const gpu::BoundResource& r : gpu_scene.resources()) {
+            const gpu::Buffer* const* buffer = std::get_if<const gpu::Buffer*>(&r.resource);
+            if (buffer != nullptr && (*buffer)->name() == "none") names.push_back(r.name);
+        }
+        return names;
+    };
+    const std::vector<std::string> cornell = absent("cornell");
+    for (const char* name : {"Tangents", "Colors", "ExtraUvs", "Textures", "SrgbTable", "texel_pages", "EnvironmentAlias"})
+        EXPECT_EQ(std::count(cornell.begin(), cornell.end(), name), 1) << name;
+    const std::vector<std::string> furnace = absent("furnace");
+    for (const char* name : {"Lights", "LightAlias"}) EXPECT_EQ(std::count(furnace.begin(), furnace.end(), name), 1) << name;
+    const std::vector<std::string> gallery = absent("gallery");
+    for (const char* name : {"Tangents", "Textures", "SrgbTable", "texel_pages", "EnvironmentAlias", "Lights", "LightAlias"})
+        EXPECT_EQ(std::count(gallery.begin(), gallery.end(), name), 0) << name;
 }
 
 class EveryScene : public testing::TestWithParam<const char*> {};
