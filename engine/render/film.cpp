@@ -7,9 +7,13 @@
 namespace licht {
 namespace {
 
-std::size_t pixels(const Film& film) { return std::size_t{film.size.x} * film.size.y; }
+std::size_t pixels(const Film& film) {
+    return std::size_t{film.size.x} * film.size.y;
+}
 
-Image plane(const Film& film, int channels) { return {static_cast<int>(film.size.x), static_cast<int>(film.size.y), channels}; }
+Image plane(const Film& film, int channels) {
+    return {static_cast<int>(film.size.x), static_cast<int>(film.size.y), channels};
+}
 
 std::vector<vec4> texels(std::span<const std::byte> bytes) {
     std::vector<vec4> result(bytes.size() / sizeof(vec4));
@@ -19,7 +23,8 @@ std::vector<vec4> texels(std::span<const std::byte> bytes) {
 
 }  // namespace
 
-void developBeauty(Film& film, std::span<const std::byte> mean_high, std::span<const std::byte> squares_high) {
+void developBeauty(Film& film, std::span<const std::byte> mean_high,
+                   std::span<const std::byte> squares_high) {
     const std::vector<vec4> mean = texels(mean_high);
     const std::vector<vec4> squares = texels(squares_high);
     film.mean = plane(film, 4);
@@ -34,8 +39,9 @@ void developBeauty(Film& film, std::span<const std::byte> mean_high, std::span<c
     }
 }
 
-void developLayers(Film& film, const AovSet& wanted, std::uint32_t aov_samples, std::span<const std::byte> albedo_bytes,
-                   std::span<const std::byte> normal_bytes, std::span<const std::byte> motion_bytes) {
+void developLayers(Film& film, const AovSet& wanted, std::uint32_t aov_samples,
+                   std::span<const std::byte> albedo_bytes, std::span<const std::byte> normal_bytes,
+                   std::span<const std::byte> motion_bytes) {
     const std::vector<vec4> albedo = texels(albedo_bytes);
     const std::vector<vec4> normal = texels(normal_bytes);
     const std::vector<vec4> motion = texels(motion_bytes);
@@ -45,7 +51,8 @@ void developLayers(Film& film, const AovSet& wanted, std::uint32_t aov_samples, 
     if (wanted.motion) film.motion = plane(film, 2);
     for (std::size_t i = 0; i < pixels(film); ++i) {
         const float hits = albedo[i].w;
-        // Albedo and beauty share their edges: both are means over all samples. The others are means over what was hit.
+        // Albedo and beauty share their edges: both are means over all samples. The others are means over
+        // what was hit.
         if (wanted.albedo) {
             const vec3 a = aov_samples > 0 ? vec3(albedo[i]) / static_cast<float>(aov_samples) : vec3(0.0F);
             std::memcpy(&film.albedo.texels[3 * i], &a, sizeof(a));
@@ -80,7 +87,8 @@ Film mergeFilms(const Film& a, const Film& b) {
             merged.mean.texels[4 * i + c] = static_cast<float>(ma + (mb - ma) * (nb / n));
             if (c == 3) continue;
             const double squares = static_cast<double>(a.variance.texels[3 * i + c]) * na * (na - 1.0) +
-                                   static_cast<double>(b.variance.texels[3 * i + c]) * nb * (nb - 1.0) + (mb - ma) * (mb - ma) * na * nb / n;
+                                   static_cast<double>(b.variance.texels[3 * i + c]) * nb * (nb - 1.0) +
+                                   (mb - ma) * (mb - ma) * na * nb / n;
             merged.variance.texels[3 * i + c] = static_cast<float>(squares / (n * (n - 1.0)));
         }
     }

@@ -5,7 +5,8 @@
 namespace licht {
 namespace {
 
-// How directions of an instance go to the world. Normals take the cofactors, which need no division: inverse transpose = cofactors / det.
+// How directions of an instance go to the world. Normals take the cofactors, which need no division: inverse
+// transpose = cofactors / det.
 struct DirectionTransform {
     mat3 linear;
     mat3 cofactors;
@@ -31,7 +32,8 @@ uint extraUvSets(const Scene& scene, const Effects& effects) {
     return static_cast<uint>(sets - 1);
 }
 
-void addVertices(FlatGeometry& out, const Mesh& mesh, const Instance& instance, const DirectionTransform& to_world, const Effects& effects) {
+void addVertices(FlatGeometry& out, const Mesh& mesh, const Instance& instance,
+                 const DirectionTransform& to_world, const Effects& effects) {
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
         VertexRecord v{};
         v.position = vec3(instance.world_from_object * vec4(mesh.positions[i], 1.0F));
@@ -50,7 +52,8 @@ void addVertices(FlatGeometry& out, const Mesh& mesh, const Instance& instance, 
             }
             out.tangents.push_back(t);
         }
-        if (effects.has(kEffectVertexColors)) out.colors.push_back(mesh.colors.empty() ? vec4(1.0F) : mesh.colors[i]);
+        if (effects.has(kEffectVertexColors))
+            out.colors.push_back(mesh.colors.empty() ? vec4(1.0F) : mesh.colors[i]);
         for (uint set = 1; set <= out.extra_uv_sets; ++set)
             out.extra_uvs.push_back(set < mesh.uv_sets.size() ? mesh.uv_sets[set][i] : vec2(0.0F));
     }
@@ -66,7 +69,8 @@ uint instanceFlags(const Mesh& mesh, const Material& material) {
 
 }  // namespace
 
-FlatGeometry flattenGeometry(const Scene& scene, const Effects& effects, const std::vector<uint>& first_light) {
+FlatGeometry flattenGeometry(const Scene& scene, const Effects& effects,
+                             const std::vector<uint>& first_light) {
     FlatGeometry out;
     out.extra_uv_sets = extraUvSets(scene, effects);
     for (uint i = 0; i < scene.instances.size(); ++i) {
@@ -94,7 +98,8 @@ std::vector<BvhTriangle> worldTriangles(const FlatGeometry& geometry) {
     std::vector<BvhTriangle> triangles;
     triangles.reserve(geometry.triangle_instances.size());
     for (std::size_t i = 0; i < geometry.indices.size(); i += 3)
-        triangles.push_back({geometry.vertices[geometry.indices[i]].position, geometry.vertices[geometry.indices[i + 1]].position,
+        triangles.push_back({geometry.vertices[geometry.indices[i]].position,
+                             geometry.vertices[geometry.indices[i + 1]].position,
                              geometry.vertices[geometry.indices[i + 2]].position});
     return triangles;
 }

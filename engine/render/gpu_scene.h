@@ -11,8 +11,9 @@
 
 namespace licht {
 
-/// The scene on the device: world-space triangles, materials, texels, lights and the BVH. A buffer exists only where an effect calls for it;
-/// programs that name an absent one are bound to a few zero bytes and, being specialised, never read them.
+/// The scene on the device: world-space triangles, materials, texels, lights and the BVH. A buffer exists
+/// only where an effect calls for it; programs that name an absent one are bound to a few zero bytes and,
+/// being specialised, never read them.
 class GpuScene {
 public:
     struct Options {
@@ -41,17 +42,22 @@ public:
     [[nodiscard]] std::uint32_t bvhDropped() const { return bvh_dropped_; }
 
 private:
-    void uploadGeometry(const Scene& scene, const Effects& effects, const std::vector<uint>& first_light, bool storage_buffer_bvh);
+    void uploadGeometry(const Scene& scene, const Effects& effects, const std::vector<uint>& first_light,
+                        bool storage_buffer_bvh);
     void uploadBvh(const std::vector<BvhTriangle>& triangles, bool storage);
     void uploadMaterials(const Scene& scene, const Effects& effects);
     void uploadTexels(const Scene& scene);
-    void uploadLights(const Scene& scene, const Effects& effects, bool sample_surfaces_and_sky, std::vector<uint>& first_light);
+    void uploadLights(const Scene& scene, const Effects& effects, bool sample_surfaces_and_sky,
+                      std::vector<uint>& first_light);
     template <typename T>
-    gpu::Buffer upload(const char* name, const std::vector<T>& values, VkBufferUsageFlags usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+    gpu::Buffer upload(const char* name, const std::vector<T>& values,
+                       VkBufferUsageFlags usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
 
     gpu::Device* device_;
-    gpu::Buffer none_, vertices_, triangle_indices_, instances_, materials_, tangents_, colors_, extra_uvs_, textures_, srgb_table_;
-    gpu::Buffer triangle_instances_, triangle_ids_, nodes_, bvh_triangles_, lights_, light_alias_, environment_alias_;
+    gpu::Buffer none_, vertices_, triangle_indices_, instances_, materials_, tangents_, colors_, extra_uvs_,
+        textures_, srgb_table_;
+    gpu::Buffer triangle_instances_, triangle_ids_, nodes_, bvh_triangles_, lights_, light_alias_,
+        environment_alias_;
     std::vector<gpu::Buffer> texel_pages_;
     gpu::TexelView nodes_view_, children_view_, triangles_view_;
     gpu::Image environment_map_;

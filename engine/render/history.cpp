@@ -4,16 +4,19 @@ namespace licht {
 namespace {
 
 gpu::Image storageImage(gpu::Device& device, const char* name, uvec2 size, VkFormat format) {
-    return {device, name, {size.x, size.y}, format, VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT};
+    return {
+        device, name, {size.x, size.y}, format, VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT};
 }
 
 }  // namespace
 
 History::History(gpu::Device& device, uvec2 size, bool layers) {
     constexpr VkFormat kFloat4 = VK_FORMAT_R32G32B32A32_SFLOAT;
-    gbuffer = gpu::Image(device, "gbuffer", {size.x, size.y}, VK_FORMAT_R32G32B32A32_UINT,
-                         VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
-    depth = gpu::Image(device, "depth", {size.x, size.y}, VK_FORMAT_D32_SFLOAT, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT);
+    gbuffer = gpu::Image(
+        device, "gbuffer", {size.x, size.y}, VK_FORMAT_R32G32B32A32_UINT,
+        VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
+    depth = gpu::Image(device, "depth", {size.x, size.y}, VK_FORMAT_D32_SFLOAT,
+                       VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT);
     radiance = storageImage(device, "radiance", size, kFloat4);
     mean_high = storageImage(device, "mean_high", size, kFloat4);
     mean_low = storageImage(device, "mean_low", size, kFloat4);
@@ -29,8 +32,9 @@ History::History(gpu::Device& device, uvec2 size, bool layers) {
 
 std::vector<gpu::BoundResource> History::resources() const {
     std::vector<gpu::BoundResource> list{
-        {"gbuffer", &gbuffer},           {"radiance_image", &radiance},     {"mean_high", &mean_high},       {"mean_low", &mean_low},
-        {"squares_high", &squares_high}, {"squares_low", &squares_low},     {"display_image", &display},
+        {"gbuffer", &gbuffer},       {"radiance_image", &radiance},   {"mean_high", &mean_high},
+        {"mean_low", &mean_low},     {"squares_high", &squares_high}, {"squares_low", &squares_low},
+        {"display_image", &display},
     };
     if (aov_albedo) {
         list.push_back({"aov_albedo", &aov_albedo});

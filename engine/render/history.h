@@ -4,7 +4,8 @@
 
 namespace licht {
 
-/// The images of one picture size. The accumulation pass alone owns what outlives a frame: means, squares and layer sums.
+/// The images of one picture size. The accumulation pass alone owns what outlives a frame: means, squares and
+/// layer sums.
 struct History {
     /// Without layers their images do not exist.
     History(gpu::Device& device, uvec2 size, bool layers);

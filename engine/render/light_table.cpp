@@ -18,7 +18,8 @@ double mean(const Texture& texture) {
         vec3 c;
         for (int k = 0; k < 3; ++k) {
             const std::uint8_t* at = &texture.bytes[(4 * i + static_cast<std::size_t>(k)) * stride];
-            c[k] = linearFromSrgb(stride == 1 ? static_cast<float>(at[0]) / 255.0F : static_cast<float>(at[0] | at[1] << 8) / 65535.0F);
+            c[k] = linearFromSrgb(stride == 1 ? static_cast<float>(at[0]) / 255.0F
+                                              : static_cast<float>(at[0] | at[1] << 8) / 65535.0F);
         }
         sum += static_cast<double>(luminance(c));
     }
@@ -30,7 +31,8 @@ std::vector<double> emittedLuminance(const Scene& scene) {
     std::vector<double> result;
     for (const Material& m : scene.materials) {
         double value = m.unlit ? 0.0 : static_cast<double>(luminance(m.emission));
-        if (value > 0.0 && m.emissive_texture.present()) value *= mean(scene.textures[m.emissive_texture.texture]);
+        if (value > 0.0 && m.emissive_texture.present())
+            value *= mean(scene.textures[m.emissive_texture.texture]);
         result.push_back(m.double_sided ? 2.0 * value : value);
     }
     return result;
@@ -46,13 +48,15 @@ void addTriangles(const Scene& scene, LightTable& table, std::vector<double>& we
         for (uint k = 0; k < mesh.triangles.size(); ++k) {
             glm::dvec3 p[3];
             for (int c = 0; c < 3; ++c)
-                p[c] = glm::dvec3(vec3(instance.world_from_object * vec4(mesh.positions[mesh.triangles[k][c]], 1.0F)));
+                p[c] = glm::dvec3(
+                    vec3(instance.world_from_object * vec4(mesh.positions[mesh.triangles[k][c]], 1.0F)));
             LightRecord light{};
             light.kind = kLightTriangle;
             light.instance = i;
             light.primitive = k;
             table.lights.push_back(light);
-            weights.push_back(0.5 * glm::length(glm::cross(p[1] - p[0], p[2] - p[0])) * luminances[mesh.material]);
+            weights.push_back(0.5 * glm::length(glm::cross(p[1] - p[0], p[2] - p[0])) *
+                              luminances[mesh.material]);
         }
     }
 }
@@ -67,7 +71,8 @@ LightRecord punctualRecord(const PunctualLight& light) {
                   : light.kind == PunctualLight::Kind::spot ? kLightSpot
                                                             : kLightDirectional;
     if (light.kind == PunctualLight::Kind::spot) {
-        // KHR_lights_punctual's reference falloff; the smallest width protects the division where both cones are equal.
+        // KHR_lights_punctual's reference falloff; the smallest width protects the division where both cones
+        // are equal.
         const float outer = std::cos(light.outer_cone);
         record.cone_scale = 1.0F / std::max(0.001F, std::cos(light.inner_cone) - outer);
         record.cone_offset = -outer * record.cone_scale;
@@ -79,12 +84,14 @@ LightRecord punctualRecord(const PunctualLight& light) {
 double flux(const PunctualLight& light, double radius) {
     const auto intensity = static_cast<double>(luminance(light.intensity));
     switch (light.kind) {
-        case PunctualLight::Kind::point: return 4.0 * std::numbers::pi * intensity;
+        case PunctualLight::Kind::point:
+            return 4.0 * std::numbers::pi * intensity;
         case PunctualLight::Kind::spot: {
             const double s = std::sin(0.5 * static_cast<double>(light.outer_cone));
             return 4.0 * std::numbers::pi * s * s * intensity;
         }
-        case PunctualLight::Kind::directional: return std::numbers::pi * radius * radius * intensity;
+        case PunctualLight::Kind::directional:
+            return std::numbers::pi * radius * radius * intensity;
     }
     return 0.0;
 }
@@ -124,7 +131,8 @@ LightTable buildLightTable(const Scene& scene, const Effects& effects, bool samp
         if (sum > 0.0) std::for_each(first, last, [sum](double& w) { w /= sum; });
     }
     table.alias = buildAliasTable(weights);
-    if (table.alias.empty()) return LightTable{{}, {}, std::vector<uint>(scene.instances.size(), kNoIndex), kNoIndex};
+    if (table.alias.empty())
+        return LightTable{{}, {}, std::vector<uint>(scene.instances.size(), kNoIndex), kNoIndex};
     for (std::size_t i = 0; i < table.lights.size(); ++i) table.lights[i].pmf = table.alias[i].pmf;
     return table;
 }
@@ -134,7 +142,8 @@ std::vector<AliasRecord> buildEnvironmentTable(const Environment& environment) {
     const auto texel = [&map](int x, int y) {
         const int wrapped = (x + map.width) % map.width;
         const int clamped = std::clamp(y, 0, map.height - 1);
-        return static_cast<double>(luminance(vec3(map.at(wrapped, clamped, 0), map.at(wrapped, clamped, 1), map.at(wrapped, clamped, 2))));
+        return static_cast<double>(luminance(
+            vec3(map.at(wrapped, clamped, 0), map.at(wrapped, clamped, 1), map.at(wrapped, clamped, 2))));
     };
     std::vector<double> weights;
     weights.reserve(static_cast<std::size_t>(map.width) * static_cast<std::size_t>(map.height));
@@ -145,7 +154,8 @@ std::vector<AliasRecord> buildEnvironmentTable(const Environment& environment) {
             // The integral of the bilinear interpolant over its texel: 1/8, 6/8, 1/8 along each axis.
             double sum = 0.0;
             for (int j = -1; j <= 1; ++j)
-                for (int i = -1; i <= 1; ++i) sum += texel(x + i, y + j) * (i == 0 ? 6.0 : 1.0) * (j == 0 ? 6.0 : 1.0) / 64.0;
+                for (int i = -1; i <= 1; ++i)
+                    sum += texel(x + i, y + j) * (i == 0 ? 6.0 : 1.0) * (j == 0 ? 6.0 : 1.0) / 64.0;
             weights.push_back(sum * (upper - lower));
         }
     }

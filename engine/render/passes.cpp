@@ -4,34 +4,41 @@ namespace licht {
 
 using gpu::Access;
 
-void recordGbuffer(gpu::Commands& commands, const gpu::Program& program, const gpu::Bindings& bindings, const GpuScene& scene,
-                   const History& history, const SamplePush& push) {
-    commands.pass("gbuffer", {{&history.gbuffer, Access::color_target}, {&history.depth, Access::depth_target}}, [&](const gpu::Pass& pass) {
-        gpu::ColorTarget target{&history.gbuffer, {}};
-        target.clear.uint32[0] = kNoIndex;
-        pass.render(std::span(&target, 1), &history.depth, [&] {
-            pass.bind(program, bindings);
-            pass.push(program, std::as_bytes(std::span(&push, 1)));
-            // glTF: back faces of single-sided materials are not drawn. Rays meet both sides, so that visibility stays symmetric.
-            for (std::uint32_t instance = 0; instance < scene.draws().size(); ++instance) {
-                const GpuScene::Draw& draw = scene.draws()[instance];
-                vkCmdSetCullMode(pass.commandBuffer(), draw.double_sided ? VK_CULL_MODE_NONE : VK_CULL_MODE_BACK_BIT);
-                vkCmdDraw(pass.commandBuffer(), draw.vertex_count, 1, draw.first_vertex, instance);
-            }
+void recordGbuffer(gpu::Commands& commands, const gpu::Program& program, const gpu::Bindings& bindings,
+                   const GpuScene& scene, const History& history, const SamplePush& push) {
+    commands.pass(
+        "gbuffer", {{&history.gbuffer, Access::color_target}, {&history.depth, Access::depth_target}},
+        [&](const gpu::Pass& pass) {
+            gpu::ColorTarget target{&history.gbuffer, {}};
+            target.clear.uint32[0] = kNoIndex;
+            pass.render(std::span(&target, 1), &history.depth, [&] {
+                pass.bind(program, bindings);
+                pass.push(program, std::as_bytes(std::span(&push, 1)));
+                // glTF: back faces of single-sided materials are not drawn. Rays meet both sides, so that
+                // visibility stays symmetric.
+                for (std::uint32_t instance = 0; instance < scene.draws().size(); ++instance) {
+                    const GpuScene::Draw& draw = scene.draws()[instance];
+                    vkCmdSetCullMode(pass.commandBuffer(),
+                                     draw.double_sided ? VK_CULL_MODE_NONE : VK_CULL_MODE_BACK_BIT);
+                    vkCmdDraw(pass.commandBuffer(), draw.vertex_count, 1, draw.first_vertex, instance);
+                }
+            });
         });
-    });
 }
 
-void recordPath(gpu::Commands& commands, const gpu::Program& program, const gpu::Bindings& bindings, const History& history,
-                const gpu::Buffer& counters, const SamplePush& push) {
+void recordPath(gpu::Commands& commands, const gpu::Program& program, const gpu::Bindings& bindings,
+                const History& history, const gpu::Buffer& counters, const SamplePush& push) {
     const VkExtent2D extent = history.gbuffer.extent();
-    commands.pass("path",
-                  {{&history.gbuffer, Access::compute_read}, {&history.radiance, Access::compute_write}, {&counters, Access::compute_read_write}},
-                  [&](const gpu::Pass& pass) { pass.dispatch(program, bindings, push, extent.width, push.row_count); });
+    commands.pass(
+        "path",
+        {{&history.gbuffer, Access::compute_read},
+         {&history.radiance, Access::compute_write},
+         {&counters, Access::compute_read_write}},
+        [&](const gpu::Pass& pass) { pass.dispatch(program, bindings, push, extent.width, push.row_count); });
 }
 
-void recordAccumulate(gpu::Commands& commands, const gpu::Program& program, const gpu::Bindings& bindings, const History& history,
-                      const SamplePush& push) {
+void recordAccumulate(gpu::Commands& commands, const gpu::Program& program, const gpu::Bindings& bindings,
+                      const History& history, const SamplePush& push) {
     commands.pass("accumulate",
                   {{&history.radiance, Access::compute_read},
                    {&history.mean_high, Access::compute_read_write},
@@ -39,27 +46,32 @@ void recordAccumulate(gpu::Commands& commands, const gpu::Program& program, cons
                    {&history.squares_high, Access::compute_read_write},
                    {&history.squares_low, Access::compute_read_write}},
                   [&](const gpu::Pass& pass) {
-                      pass.dispatch(program, bindings, push, history.radiance.extent().width, history.radiance.extent().height);
+                      pass.dispatch(program, bindings, push, history.radiance.extent().width,
+                                    history.radiance.extent().height);
                   });
 }
 
-void recordLayers(gpu::Commands& commands, const gpu::Program& program, const gpu::Bindings& bindings, const History& history,
-                  const SamplePush& push) {
+void recordLayers(gpu::Commands& commands, const gpu::Program& program, const gpu::Bindings& bindings,
+                  const History& history, const SamplePush& push) {
     commands.pass("layers",
                   {{&history.gbuffer, Access::compute_read},
                    {&history.aov_albedo, Access::compute_read_write},
                    {&history.aov_normal, Access::compute_read_write},
                    {&history.aov_motion, Access::compute_read_write}},
                   [&](const gpu::Pass& pass) {
-                      pass.dispatch(program, bindings, push, history.gbuffer.extent().width, history.gbuffer.extent().height);
+                      pass.dispatch(program, bindings, push, history.gbuffer.extent().width,
+                                    history.gbuffer.extent().height);
                   });
 }
 
-void recordTonemap(gpu::Commands& commands, const gpu::Program& program, const gpu::Bindings& bindings, const History& history,
-                   const TonemapPush& push) {
-    commands.pass("tonemap", {{&history.mean_high, Access::compute_read}, {&history.display, Access::compute_write}}, [&](const gpu::Pass& pass) {
-        pass.dispatch(program, bindings, push, history.display.extent().width, history.display.extent().height);
-    });
+void recordTonemap(gpu::Commands& commands, const gpu::Program& program, const gpu::Bindings& bindings,
+                   const History& history, const TonemapPush& push) {
+    commands.pass("tonemap",
+                  {{&history.mean_high, Access::compute_read}, {&history.display, Access::compute_write}},
+                  [&](const gpu::Pass& pass) {
+                      pass.dispatch(program, bindings, push, history.display.extent().width,
+                                    history.display.extent().height);
+                  });
 }
 
 }  // namespace licht

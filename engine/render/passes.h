@@ -1,5 +1,6 @@
 #pragma once
-// The passes of a frame. Each is a function that records one pass: what it reads, what it writes, what it runs.
+// The passes of a frame. Each is a function that records one pass: what it reads, what it writes, what it
+// runs.
 #include "licht/gpu/commands.h"
 #include "licht/render/gpu_scene.h"
 #include "licht/render/history.h"
@@ -7,23 +8,23 @@
 namespace licht {
 
 /// Primary hits by rasterising: frame constants + scene -> gbuffer, depth.
-void recordGbuffer(gpu::Commands& commands, const gpu::Program& program, const gpu::Bindings& bindings, const GpuScene& scene,
-                   const History& history, const SamplePush& push);
+void recordGbuffer(gpu::Commands& commands, const gpu::Program& program, const gpu::Bindings& bindings,
+                   const GpuScene& scene, const History& history, const SamplePush& push);
 
 /// Rows [push.first_row, + push.row_count): gbuffer -> radiance, and counts.
-void recordPath(gpu::Commands& commands, const gpu::Program& program, const gpu::Bindings& bindings, const History& history,
-                const gpu::Buffer& counters, const SamplePush& push);
+void recordPath(gpu::Commands& commands, const gpu::Program& program, const gpu::Bindings& bindings,
+                const History& history, const gpu::Buffer& counters, const SamplePush& push);
 
 /// radiance -> mean and variance.
-void recordAccumulate(gpu::Commands& commands, const gpu::Program& program, const gpu::Bindings& bindings, const History& history,
-                      const SamplePush& push);
+void recordAccumulate(gpu::Commands& commands, const gpu::Program& program, const gpu::Bindings& bindings,
+                      const History& history, const SamplePush& push);
 
 /// gbuffer -> sums of albedo, normal, depth, motion.
-void recordLayers(gpu::Commands& commands, const gpu::Program& program, const gpu::Bindings& bindings, const History& history,
-                  const SamplePush& push);
+void recordLayers(gpu::Commands& commands, const gpu::Program& program, const gpu::Bindings& bindings,
+                  const History& history, const SamplePush& push);
 
 /// mean -> display.
-void recordTonemap(gpu::Commands& commands, const gpu::Program& program, const gpu::Bindings& bindings, const History& history,
-                   const TonemapPush& push);
+void recordTonemap(gpu::Commands& commands, const gpu::Program& program, const gpu::Bindings& bindings,
+                   const History& history, const TonemapPush& push);
 
 }  // namespace licht

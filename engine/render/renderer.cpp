@@ -19,15 +19,19 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+double secondsSince(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
-// A submission that runs longer than this meets the watchdogs of desktop systems (about two seconds) on a slow moment.
+// A submission that runs longer than this meets the watchdogs of desktop systems (about two seconds) on a
+// slow moment.
 constexpr double kSliceSeconds = 0.1;
 
 // Means over this many samples are as good as exact for the layers, and their plain fp32 sums cannot stall.
 constexpr std::uint32_t kMostLayerSamples = 4096;
 
-gpu::SpecConstants constantsOf(const Effects& effects, const GpuScene& scene, const RenderSettings& settings) {
+gpu::SpecConstants constantsOf(const Effects& effects, const GpuScene& scene,
+                               const RenderSettings& settings) {
     gpu::SpecConstants constants = scene.constants();
     for (uint effect = 0; effect < kEffectCount; ++effect) constants[effect] = effects.has(effect) ? 1U : 0U;
     constants[kConstantDirectMis] = settings.direct == DirectLight::mis ? 1U : 0U;
@@ -43,7 +47,8 @@ gpu::SpecConstants constantsOf(const Effects& effects, const GpuScene& scene, co
 struct Slot {
     Slot(gpu::Device& device, const char* name)
         : commands(device),
-          counters(device, name, sizeof(CounterRecord), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Memory::host_read) {
+          counters(device, name, sizeof(CounterRecord), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+                   gpu::Memory::host_read) {
         std::memset(counters.mapped(), 0, sizeof(CounterRecord));
     }
     gpu::Commands commands;
@@ -61,7 +66,8 @@ struct Renderer::State {
           effects(s.all_effects ? allEffects() : detectEffects(scene)),
           upload_start(Clock::now()),
           gpu_scene(d, scene, effects, {s.direct == DirectLight::mis, s.storage_buffer_bvh}),
-          frame_buffer(d, "frame", sizeof(FrameRecord), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Memory::host_write),
+          frame_buffer(d, "frame", sizeof(FrameRecord), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+                       gpu::Memory::host_write),
           slots{Slot(d, "counters 0"), Slot(d, "counters 1")} {
         statistics.bvh_seconds = gpu_scene.bvhSeconds();
         statistics.upload_seconds = secondsSince(upload_start) - statistics.bvh_seconds;
@@ -96,7 +102,8 @@ struct Renderer::State {
     RenderStatistics statistics;
 };
 
-// Some drivers compile at first use. Done here, on one row of the picture, so that compiling is told from rendering; nothing of it is kept.
+// Some drivers compile at first use. Done here, on one row of the picture, so that compiling is told from
+// rendering; nothing of it is kept.
 void Renderer::State::runEveryProgramOnce() {
     SamplePush push{};
     push.row_count = 1;
@@ -162,7 +169,8 @@ Slot& Renderer::State::nextSlot() {
     return slot;
 }
 
-// Work is sliced by measured time. The picture does not depend on it: a sample is a function of its address alone.
+// Work is sliced by measured time. The picture does not depend on it: a sample is a function of its address
+// alone.
 std::uint32_t Renderer::State::rowsPerSlice() const {
     double seconds = 0.0;
     for (const Slot& slot : slots) {
@@ -171,11 +179,13 @@ std::uint32_t Renderer::State::rowsPerSlice() const {
     }
     const double rows_done = static_cast<double>(history->samples) * settings.size.y;
     if (seconds <= 0.0 || rows_done <= 0.0) return std::min(settings.size.y, 128U);
-    const double rows = std::clamp(kSliceSeconds * rows_done / seconds, 8.0, static_cast<double>(settings.size.y));
+    const double rows =
+        std::clamp(kSliceSeconds * rows_done / seconds, 8.0, static_cast<double>(settings.size.y));
     return static_cast<std::uint32_t>(rows);
 }
 
-Renderer::Renderer(gpu::Device& device, const Scene& scene, const Camera& camera, const RenderSettings& settings)
+Renderer::Renderer(gpu::Device& device, const Scene& scene, const Camera& camera,
+                   const RenderSettings& settings)
     : state_(std::make_unique<State>(device, scene, camera, settings)) {}
 
 Renderer::~Renderer() {
@@ -198,7 +208,9 @@ void Renderer::renderSample() {
     for (push.first_row = 0; push.first_row < s.settings.size.y; push.first_row += rows) {
         push.row_count = std::min(rows, s.settings.size.y - push.first_row);
         Slot& slot = s.nextSlot();
-        if (push.first_row == 0) recordGbuffer(slot.commands, s.programs->gbuffer, s.gbuffer_bindings, s.gpu_scene, *s.history, push);
+        if (push.first_row == 0)
+            recordGbuffer(slot.commands, s.programs->gbuffer, s.gbuffer_bindings, s.gpu_scene, *s.history,
+                          push);
         recordPath(slot.commands, s.programs->path, slot.path, *s.history, slot.counters, push);
         if (push.first_row + push.row_count == s.settings.size.y) {
             recordAccumulate(slot.commands, s.programs->accumulate, s.accumulate_bindings, *s.history, push);
@@ -219,7 +231,9 @@ void Renderer::finish() {
     for (Slot& slot : state_->slots) state_->collect(slot);
 }
 
-std::uint32_t Renderer::samples() const { return state_->history->samples; }
+std::uint32_t Renderer::samples() const {
+    return state_->history->samples;
+}
 
 void Renderer::setCamera(const Camera& camera) {
     State& s = *state_;
@@ -245,10 +259,12 @@ Film Renderer::readFilm() {
     film.size = s.settings.size;
     film.samples = s.history->samples;
     if (film.samples == 0) throw DeviceError("no sample has been rendered yet");
-    developBeauty(film, gpu::readImage(s.device, s.history->mean_high), gpu::readImage(s.device, s.history->squares_high));
+    developBeauty(film, gpu::readImage(s.device, s.history->mean_high),
+                  gpu::readImage(s.device, s.history->squares_high));
     if (s.settings.aovs.any())
-        developLayers(film, s.settings.aovs, s.history->aov_samples, gpu::readImage(s.device, s.history->aov_albedo),
-                      gpu::readImage(s.device, s.history->aov_normal), gpu::readImage(s.device, s.history->aov_motion));
+        developLayers(
+            film, s.settings.aovs, s.history->aov_samples, gpu::readImage(s.device, s.history->aov_albedo),
+            gpu::readImage(s.device, s.history->aov_normal), gpu::readImage(s.device, s.history->aov_motion));
     return film;
 }
 
@@ -274,13 +290,18 @@ Image Renderer::readDisplay(Tonemap curve, float exposure_ev) {
     }
     const std::vector<std::byte> bytes = gpu::readImage(s.device, s.history->display);
     Image picture(static_cast<int>(s.settings.size.x), static_cast<int>(s.settings.size.y), 4);
-    for (std::size_t i = 0; i < picture.texels.size(); ++i) picture.texels[i] = static_cast<float>(bytes[i]) / 255.0F;
+    for (std::size_t i = 0; i < picture.texels.size(); ++i)
+        picture.texels[i] = static_cast<float>(bytes[i]) / 255.0F;
     return picture;
 }
 
-const gpu::Image& Renderer::displayImage() const { return state_->history->display; }
+const gpu::Image& Renderer::displayImage() const {
+    return state_->history->display;
+}
 
-const Effects& Renderer::effects() const { return state_->effects; }
+const Effects& Renderer::effects() const {
+    return state_->effects;
+}
 
 RenderStatistics Renderer::statistics() const {
     RenderStatistics result = state_->statistics;

@@ -22,7 +22,8 @@ struct AovSet {
     [[nodiscard]] bool any() const { return albedo || normal || depth || motion; }
 };
 
-/// How direct light is found. mis: next event estimation and scattering combined; hemisphere: scattering alone, the lecture's first form.
+/// How direct light is found. mis: next event estimation and scattering combined; hemisphere: scattering
+/// alone, the lecture's first form.
 enum class DirectLight : std::uint32_t { mis, hemisphere };
 
 struct RenderSettings {
@@ -30,11 +31,13 @@ struct RenderSettings {
     std::uint32_t bounces = 8;         ///< L = sum of T^i Le for i <= bounces
     std::uint32_t roulette_start = 8;  ///< first bounce that may end a path by chance; >= bounces: never
     std::uint32_t seed = 0;
-    std::uint32_t first_sample = 0;    ///< index of the first sample: ranges rendered apart merge to the whole
+    std::uint32_t first_sample = 0;  ///< index of the first sample: ranges rendered apart merge to the whole
     DirectLight direct = DirectLight::mis;
     AovSet aovs;
-    bool all_effects = false;          ///< compile everything, called for or not (the reference for the specialised programs)
-    bool storage_buffer_bvh = false;   ///< fetch the BVH from storage buffers even where texel buffers are large enough
+    bool all_effects =
+        false;  ///< compile everything, called for or not (the reference for the specialised programs)
+    bool storage_buffer_bvh =
+        false;  ///< fetch the BVH from storage buffers even where texel buffers are large enough
 };
 
 /// What was accumulated so far, on the host. Planes are width * height, from the top left.
@@ -49,11 +52,12 @@ struct Film {
     Image motion;    ///< XY, when asked for
 };
 
-/// Merges two films of disjoint sample ranges (Chan, Golub, LeVeque 1979, Updating Formulae and a Pairwise Algorithm for Computing Sample Variances).
+/// Merges two films of disjoint sample ranges (Chan, Golub, LeVeque 1979, Updating Formulae and a Pairwise
+/// Algorithm for Computing Sample Variances).
 Film mergeFilms(const Film& a, const Film& b);
 
-/// sqrt of the estimated relMSE: mean over pixels and channels of variance of the mean / (mean^2 + 0.01 * (the picture's mean)^2).
-/// Negative while it is unknown (fewer than two samples).
+/// sqrt of the estimated relMSE: mean over pixels and channels of variance of the mean / (mean^2 + 0.01 *
+/// (the picture's mean)^2). Negative while it is unknown (fewer than two samples).
 double relativeError(const Film& film);
 
 enum class Tonemap : std::uint32_t { none, neutral, agx, aces };
@@ -67,7 +71,8 @@ struct RenderStatistics {
     std::uint64_t bounce_rays = 0;
     std::uint64_t shadow_rays = 0;
     std::uint64_t nonfinite_samples = 0;
-    /// Samples in which a driver that limits the loops of a shader ended a BVH traversal early: they may have missed a surface.
+    /// Samples in which a driver that limits the loops of a shader ended a BVH traversal early: they may have
+    /// missed a surface.
     std::uint64_t cut_walks = 0;
 };
 
@@ -81,7 +86,8 @@ public:
     Renderer& operator=(const Renderer&) = delete;
     ~Renderer();
 
-    /// Records and submits one sample per pixel; returns while the device works, with at most two frames in flight.
+    /// Records and submits one sample per pixel; returns while the device works, with at most two frames in
+    /// flight.
     void renderSample();
     /// Waits for everything submitted.
     void finish();
@@ -95,7 +101,8 @@ public:
     [[nodiscard]] Film readFilm();
     /// The tone-mapped picture, display-referred sRGB in [0,1], RGBA.
     [[nodiscard]] Image readDisplay(Tonemap curve, float exposure_ev);
-    /// Records the tone map into an RGBA8/BGRA8 image of the same size; used by the window. `commands` must be recording.
+    /// Records the tone map into an RGBA8/BGRA8 image of the same size; used by the window. `commands` must
+    /// be recording.
     void recordDisplay(gpu::Commands& commands, Tonemap curve, float exposure_ev);
     /// The image recordDisplay writes: R8G8B8A8_UNORM, already sRGB-encoded.
     [[nodiscard]] const gpu::Image& displayImage() const;

@@ -68,10 +68,11 @@ void warnOfDoubts(const RenderStatistics& statistics) {
         fmt::print(stderr, "licht: warning: {} samples were no finite number and count as black\n",
                    statistics.nonfinite_samples);
     if (statistics.cut_walks > 0)
-        fmt::print(stderr,
-                   "licht: warning: in {} samples the driver ended the search for a hit early; surfaces may be "
-                   "missing\n",
-                   statistics.cut_walks);
+        fmt::print(
+            stderr,
+            "licht: warning: in {} samples the driver ended the search for a hit early; surfaces may be "
+            "missing\n",
+            statistics.cut_walks);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // glTF 2.0 metallic-roughness (Appendix B of its specification) with KHR_materials_specular, KHR_materials_ior and KHR_materials_iridescence:
-// a Lambertian base under a GGX coat. The base receives what the coat passes (passedByCoat). Local frame, +Z is the normal; wo and wi both
+// a Lambertian base under a GGX coat. The base receives what the coat passes (passedToBase). Local frame, +Z is the normal; wo and wi both
 // point away from the surface; only wo.z > 0 and wi.z > 0 reflect.
 // Three verbs: evaluate gives f (1/sr, without the cosine), pdf its density (solid angle), sample a direction with its weight f cos / pdf.
 #ifndef LICHT_PURE_BSDF_GLSL
@@ -56,20 +56,24 @@ float passedByCoat(Bsdf b, float cos_o, float cos_i) {
     return mean_passed > 0.0 ? out_passed * in_passed / mean_passed : 0.0;
 }
 
-struct Layers {
-    vec3 coat;     // reflectance of the coat
-    float passed;  // what a film leaves to the layers below; 1 without one
-};
+// What coat and film leave to the base. A film passes what its strongest channel leaves, of both directions the lesser share: reciprocal, and the
+// base's albedo towards wo is at most diffuse * (1 - R(wo)), as under the plain coat. No mean over the hemisphere is known for it in closed form.
+float passedToBase(Bsdf b, float cos_o, float cos_i) {
+    float passed = passedByCoat(b, cos_o, cos_i);
+    if (!hasFilm(b)) return passed;
+    vec3 towards_o = fresnelThinFilm(b.film, filmResponse(b.film, cos_o), b.film_dielectric_f0);
+    vec3 towards_i = fresnelThinFilm(b.film, filmResponse(b.film, cos_i), b.film_dielectric_f0);
+    return mix(passed, 1.0 - largest(max(towards_o, towards_i)), b.film.strength);
+}
 
-// cos_h: between wo or wi and the half vector.
-Layers layersAt(Bsdf b, float cos_h) {
-    Layers plain = Layers(fresnelSchlick(b.f0, b.f90, cos_h), 1.0);
+// Reflectance of the coat. cos_h: between wo or wi and the half vector.
+vec3 coatReflectance(Bsdf b, float cos_h) {
+    vec3 plain = fresnelSchlick(b.f0, b.f90, cos_h);
     if (!hasFilm(b)) return plain;
     FilmResponse response = filmResponse(b.film, cos_h);
     vec3 dielectric = fresnelThinFilm(b.film, response, b.film_dielectric_f0);
     vec3 metal = fresnelThinFilm(b.film, response, b.film_metal_f0);
-    return Layers(mix(plain.coat, mix(dielectric, metal, b.metallic), b.film.strength),
-                  mix(plain.passed, 1.0 - largest(dielectric), b.film.strength));
+    return mix(plain, mix(dielectric, metal, b.metallic), b.film.strength);
 }
 
 // Share of samples spent on the coat: by its reflectance towards wo against the base's.
@@ -87,10 +91,8 @@ vec3 bsdfEvaluate(Bsdf b, vec3 wo, vec3 wi) {
     if (wo.z <= 0.0 || wi.z <= 0.0) return vec3(0.0);
     if (!kGlossy) return b.diffuse * kInvPi;
     vec3 h = normalize(wo + wi);
-    float cos_h = dot(wo, h);
-    Layers layers = layersAt(b, cos_h);
-    vec3 coat = layers.coat * (ggxD(h, b.alpha) * ggxG2(wo, wi, b.alpha) / (4.0 * wo.z * wi.z));
-    return b.diffuse * (layers.passed * passedByCoat(b, wo.z, wi.z) * kInvPi) + coat;
+    vec3 coat = coatReflectance(b, dot(wo, h)) * (ggxD(h, b.alpha) * ggxG2(wo, wi, b.alpha) / (4.0 * wo.z * wi.z));
+    return b.diffuse * (passedToBase(b, wo.z, wi.z) * kInvPi) + coat;
 }
 
 float bsdfPdf(Bsdf b, vec3 wo, vec3 wi) {

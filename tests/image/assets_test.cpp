@@ -1,4 +1,5 @@
-// Every model of a folder of glTF samples, where there is one: it renders, no sample is no number, and the picture is not black.
+// Every model of a folder of glTF samples, where there is one: it renders, no sample is no number, and the
+// picture is not black.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -23,7 +24,8 @@ fs::path modelFile(const fs::path& folder) {
     for (const char* variant : {"glTF", "glTF-Binary", "glTF-Embedded", "glTF-Quantized"}) {
         if (!fs::is_directory(folder / variant)) continue;
         for (const fs::directory_entry& entry : fs::directory_iterator(folder / variant))
-            if (entry.path().extension() == ".gltf" || entry.path().extension() == ".glb") return entry.path();
+            if (entry.path().extension() == ".gltf" || entry.path().extension() == ".glb")
+                return entry.path();
     }
     return {};
 }
@@ -31,7 +33,8 @@ fs::path modelFile(const fs::path& folder) {
 TEST(Assets, EveryModelRenders) {
     const fs::path assets = assetFolder();
     if (!fs::is_directory(assets)) {
-        std::cout << "no models to render: the folder " << assets << " is not there (LICHT_ASSETS names another)\n";
+        std::cout << "no models to render: the folder " << assets
+                  << " is not there (LICHT_ASSETS names another)\n";
         return;
     }
     std::size_t rendered = 0;
@@ -44,15 +47,18 @@ TEST(Assets, EveryModelRenders) {
             scene = loadGltf(file);
         } catch (const std::exception& error) {
             // BoxMeshopt exists in compressed form alone.
-            EXPECT_NE(std::string(error.what()).find("required extension"), std::string::npos) << error.what();
+            EXPECT_NE(std::string(error.what()).find("required extension"), std::string::npos)
+                << error.what();
             continue;
         }
         if (isDark(scene)) scene.environment = constantEnvironment(vec3(1.0F));
         RenderSettings settings;
         settings.size = uvec2(48, 32);
-        const Camera camera = scene.cameras.empty() ? framingCamera(sceneBounds(scene), 1.5F) : scene.cameras[0];
+        const Camera camera =
+            scene.cameras.empty() ? framingCamera(sceneBounds(scene), 1.5F) : scene.cameras[0];
         const Film film = renderFilm(scene, camera, settings, 4);
-        EXPECT_GT(pictureMean(film, 0).mean + pictureMean(film, 1).mean + pictureMean(film, 2).mean, 0.0) << "all black";
+        EXPECT_GT(pictureMean(film, 0).mean + pictureMean(film, 1).mean + pictureMean(film, 2).mean, 0.0)
+            << "all black";
         ++rendered;
     }
     std::cout << rendered << " models rendered\n";

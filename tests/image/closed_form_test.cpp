@@ -27,8 +27,9 @@ RenderSettings square(std::uint32_t side, std::uint32_t bounces, DirectLight dir
     return settings;
 }
 
-// Any closed shape, emission Le and albedo r everywhere: L_n = Le (1 - r^(n+1)) / (1 - r) in every pixel, without noise, because every
-// sample of every bounce is worth exactly r. Rounding: two per bounce of a sum that stays below twice its first term.
+// Any closed shape, emission Le and albedo r everywhere: L_n = Le (1 - r^(n+1)) / (1 - r) in every pixel,
+// without noise, because every sample of every bounce is worth exactly r. Rounding: two per bounce of a sum
+// that stays below twice its first term.
 TEST(Furnace, EveryBounceCountIsExactAndFreeOfNoise) {
     const Scene scene = *makeBuiltinScene("furnace");
     for (const std::uint32_t bounces : {0U, 1U, 2U, 3U, 4U, 5U, 6U, 7U, 8U, 12U, 32U, 100U}) {
@@ -39,9 +40,11 @@ TEST(Furnace, EveryBounceCountIsExactAndFreeOfNoise) {
         for (int y = 0; y < 32; ++y) {
             for (int x = 0; x < 32; ++x) {
                 for (int c = 0; c < 3; ++c) {
-                    ASSERT_NEAR(static_cast<double>(film.mean.at(x, y, c)), exact, 1e-4 * exact) << bounces << " bounces, pixel " << x << ' ' << y;
+                    ASSERT_NEAR(static_cast<double>(film.mean.at(x, y, c)), exact, 1e-4 * exact)
+                        << bounces << " bounces, pixel " << x << ' ' << y;
                     // A deviation of one rounding (6e-8) in each sample is no noise.
-                    ASSERT_LT(static_cast<double>(film.variance.at(x, y, c)), 1e-14) << bounces << " bounces, pixel " << x << ' ' << y;
+                    ASSERT_LT(static_cast<double>(film.variance.at(x, y, c)), 1e-14)
+                        << bounces << " bounces, pixel " << x << ' ' << y;
                 }
             }
         }
@@ -71,7 +74,8 @@ TEST(Furnace, RouletteKeepsTheMean) {
     EXPECT_GT(pictureMean(film, 0).standard_error, 0.0);
 }
 
-// The picture is exactly the receiving square, so its mean is albedo * Le * F. Howell, A Catalog of Radiation Heat Transfer Configuration Factors.
+// The picture is exactly the receiving square, so its mean is albedo * Le * F. Howell, A Catalog of Radiation
+// Heat Transfer Configuration Factors.
 class FormFactor : public testing::TestWithParam<DirectLight> {};
 
 TEST_P(FormFactor, ParallelUnitSquares) {
@@ -89,14 +93,17 @@ TEST_P(FormFactor, PerpendicularUnitSquaresWithACommonEdge) {
     Scene scene;
     scene.materials = {lambert(0.5F), lambert(0.0F, 4.0F)};
     place(scene, horizontalSquare(0, 0.0F, true));
-    place(scene, quadMesh("wall", 1, vec3(-kHalf, 0, kHalf), vec3(-kHalf, 0, -kHalf), vec3(-kHalf, 1, -kHalf), vec3(-kHalf, 1, kHalf)));
+    place(scene, quadMesh("wall", 1, vec3(-kHalf, 0, kHalf), vec3(-kHalf, 0, -kHalf), vec3(-kHalf, 1, -kHalf),
+                          vec3(-kHalf, 1, kHalf)));
     place(scene, horizontalSquare(0, -5.0F, true, 4.0F));
     const Film film = renderFilm(scene, downCamera(vec3(0.0F), kHalf, 3.0F), square(64, 1, GetParam()), 512);
     expectMean(film, 0.5 * 4.0 * 0.2000437761);
 }
 
 INSTANTIATE_TEST_SUITE_P(BothForms, FormFactor, testing::Values(DirectLight::mis, DirectLight::hemisphere),
-                         [](const auto& instance) { return instance.param == DirectLight::mis ? "mis" : "hemisphere"; });
+                         [](const auto& instance) {
+                             return instance.param == DirectLight::mis ? "mis" : "hemisphere";
+                         });
 
 // A convex Lambertian body under a uniform sky L shows albedo * L everywhere.
 TEST(Sky, ConvexBodyUnderAUniformSky) {
@@ -109,7 +116,8 @@ TEST(Sky, ConvexBodyUnderAUniformSky) {
     // The picture lies well inside the sphere's outline.
     const Camera camera = downCamera(vec3(0.0F), 0.6F, 3.0F);
     const Film exact = renderFilm(scene, camera, square(32, 8, DirectLight::hemisphere), 4);
-    for (std::size_t i = 0; i < exact.mean.texels.size(); i += 4) ASSERT_NEAR(exact.mean.texels[i], 1.5F, 1.5e-5F);
+    for (std::size_t i = 0; i < exact.mean.texels.size(); i += 4)
+        ASSERT_NEAR(exact.mean.texels[i], 1.5F, 1.5e-5F);
     expectMean(renderFilm(scene, camera, square(32, 8), 64), 1.5);
 }
 
@@ -132,13 +140,15 @@ TEST(Empty, NoLightIsBlackAndTransparent) {
     for (const float value : film.mean.texels) ASSERT_EQ(value, 0.0F);
 }
 
-// Bowl: the inside of a sphere's cap with area share F of the sphere, under a uniform sky: r (1-F) / (1-rF) L after all bounces, the same at every point.
+// Bowl: the inside of a sphere's cap with area share F of the sphere, under a uniform sky: r (1-F) / (1-rF) L
+// after all bounces, the same at every point.
 TEST(Sky, HalfSphereBowl) {
     Scene scene;
     scene.materials = {lambert(0.5F)};
     scene.materials[0].double_sided = true;
-    // Lower half of an inward-facing sphere. Its facets are chords, so their area share of the polyhedron rules; with 128 x 64 facets the difference is
-    // below 4e-4 of the result, which the tolerance contains as a stated model error.
+    // Lower half of an inward-facing sphere. Its facets are chords, so their area share of the polyhedron
+    // rules; with 128 x 64 facets the difference is below 4e-4 of the result, which the tolerance contains as
+    // a stated model error.
     Mesh bowl = sphereMesh("bowl", 0, 1.0F, 128, 64);
     bowl.normals.clear();
     std::erase_if(bowl.triangles, [&bowl](const uvec3& t) {
@@ -152,8 +162,8 @@ TEST(Sky, HalfSphereBowl) {
     EXPECT_NEAR(picture.mean, exact, 4.5 * picture.standard_error + 4e-4 * exact);
 }
 
-// Radiance of a patch under a point light I at height d: albedo / pi * I / d^2. The patch is d / 1000 wide, so that the
-// cosine and the distance vary by less than 1e-6 over it.
+// Radiance of a patch under a point light I at height d: albedo / pi * I / d^2. The patch is d / 1000 wide,
+// so that the cosine and the distance vary by less than 1e-6 over it.
 TEST(PunctualLight, InverseSquareFromMillimetresToAThousandKilometres) {
     for (const float d : {1e-3F, 1e-2F, 1.0F, 1e2F, 1e4F, 1e6F}) {
         Scene scene;
@@ -182,10 +192,12 @@ TEST(PunctualLight, DirectionalLightIsLux) {
     scene.lights.push_back(light);
     const Film film = renderFilm(scene, downCamera(vec3(0.0F), 0.5F, 2.0F), square(8, 1), 2);
     const double exact = 0.5 / std::numbers::pi * 3.0 * std::sqrt(0.5);
-    for (std::size_t i = 0; i < film.mean.texels.size(); i += 4) ASSERT_NEAR(static_cast<double>(film.mean.texels[i]), exact, 2e-6 * exact);
+    for (std::size_t i = 0; i < film.mean.texels.size(); i += 4)
+        ASSERT_NEAR(static_cast<double>(film.mean.texels[i]), exact, 2e-6 * exact);
 }
 
-// A spot of equal cones is full inside and dark outside; half way between two cones the squared ramp of KHR_lights_punctual is 1/4.
+// A spot of equal cones is full inside and dark outside; half way between two cones the squared ramp of
+// KHR_lights_punctual is 1/4.
 TEST(PunctualLight, SpotCone) {
     Scene scene;
     scene.materials = {lambert(1.0F)};
@@ -205,7 +217,8 @@ TEST(PunctualLight, SpotCone) {
     EXPECT_NEAR(at(0.0F), 1.0, 4e-6);
     EXPECT_EQ(at(std::tan(0.61F)), 0.0);
     const double middle = 0.5 * (std::cos(0.2) + std::cos(0.6));
-    // cos^3 of the angle: inverse square and cosine. The patch is 1e-3 wide and the ramp changes by 2 * slope * 5e-4 over half of it.
+    // cos^3 of the angle: inverse square and cosine. The patch is 1e-3 wide and the ramp changes by 2 * slope
+    // * 5e-4 over half of it.
     EXPECT_NEAR(at(static_cast<float>(std::tan(std::acos(middle)))), 0.25 * std::pow(middle, 3), 2e-3);
 }
 
@@ -221,7 +234,8 @@ TEST(Alpha, BlendIsCoverage) {
     expectMean(renderFilm(scene, downCamera(vec3(0.0F), 0.5F, 2.0F), square(32, 0), 64), 2.0 * 0.7);
 }
 
-// The same for rays: the floor under the sheet sees the sky through it. Floor albedo 1, sky 1: light passes the sheet on its way down, and the camera's ray does.
+// The same for rays: the floor under the sheet sees the sky through it. Floor albedo 1, sky 1: light passes
+// the sheet on its way down, and the camera's ray does.
 TEST(Alpha, BlendLetsShadowRaysThrough) {
     Scene scene;
     Material sheet = lambert(0.0F);
@@ -248,7 +262,8 @@ TEST(Alpha, MaskIsAllOrNothing) {
         place(scene, horizontalSquare(0, 0.0F, true, 2.0F));
         place(scene, horizontalSquare(1, 0.5F, true, 2.0F));
         const Film film = renderFilm(scene, downCamera(vec3(0.0F), 0.5F, 2.0F), square(8, 0), 2);
-        for (std::size_t i = 0; i < film.mean.texels.size(); i += 4) ASSERT_EQ(film.mean.texels[i], alpha < 0.5F ? 2.0F : 1.0F);
+        for (std::size_t i = 0; i < film.mean.texels.size(); i += 4)
+            ASSERT_EQ(film.mean.texels[i], alpha < 0.5F ? 2.0F : 1.0F);
     }
 }
 

@@ -18,7 +18,9 @@
 namespace licht {
 namespace {
 
-Scene builtin(const char* name) { return *makeBuiltinScene(name); }
+Scene builtin(const char* name) {
+    return *makeBuiltinScene(name);
+}
 
 RenderSettings small() {
     RenderSettings settings;
@@ -28,7 +30,8 @@ RenderSettings small() {
 }
 
 bool identical(const Image& a, const Image& b) {
-    return a.texels.size() == b.texels.size() && std::memcmp(a.texels.data(), b.texels.data(), a.texels.size() * sizeof(float)) == 0;
+    return a.texels.size() == b.texels.size() &&
+           std::memcmp(a.texels.data(), b.texels.data(), a.texels.size() * sizeof(float)) == 0;
 }
 
 TEST(Repeatability, SameSeedGivesTheSameBits) {
@@ -54,14 +57,17 @@ TEST(Repeatability, SplitRangesMergeToTheWhole) {
     const Film whole = renderFilm(scene, scene.cameras[0], small(), 12);
     RenderSettings rest = small();
     rest.first_sample = 5;
-    const Film merged = mergeFilms(renderFilm(scene, scene.cameras[0], small(), 5), renderFilm(scene, scene.cameras[0], rest, 7));
+    const Film merged = mergeFilms(renderFilm(scene, scene.cameras[0], small(), 5),
+                                   renderFilm(scene, scene.cameras[0], rest, 7));
     ASSERT_EQ(merged.samples, 12U);
     for (std::size_t i = 0; i < whole.mean.texels.size(); ++i)
-        ASSERT_NEAR(merged.mean.texels[i], whole.mean.texels[i], 4 * 6e-8F * whole.mean.texels[i]);  // three roundings to fp32
+        ASSERT_NEAR(merged.mean.texels[i], whole.mean.texels[i],
+                    4 * 6e-8F * whole.mean.texels[i]);  // three roundings to fp32
     for (std::size_t i = 0; i < whole.variance.texels.size(); ++i) {
         // The rounding of each part's mean enters the squares as (mean * 6e-8) * spread.
         const float mean = whole.mean.texels[i / 3 * 4 + i % 3];
-        ASSERT_NEAR(merged.variance.texels[i], whole.variance.texels[i], 1e-5F * (whole.variance.texels[i] + mean * mean * 1e-4F));
+        ASSERT_NEAR(merged.variance.texels[i], whole.variance.texels[i],
+                    1e-5F * (whole.variance.texels[i] + mean * mean * 1e-4F));
     }
 }
 
@@ -101,10 +107,12 @@ TEST(Estimators, RouletteKeepsThePicture) {
     RenderSettings roulette = small();
     roulette.roulette_start = 0;
     roulette.seed = 10;
-    expectSamePicture(renderFilm(scene, scene.cameras[0], roulette, 512), renderFilm(scene, scene.cameras[0], small(), 256), "roulette");
+    expectSamePicture(renderFilm(scene, scene.cameras[0], roulette, 512),
+                      renderFilm(scene, scene.cameras[0], small(), 256), "roulette");
 }
 
-// What a scene does not call for has no memory: its name in the shaders is bound to the few zero bytes that stand for "none".
+// What a scene does not call for has no memory: its name in the shaders is bound to the few zero bytes that
+// stand for "none".
 TEST(Effects, AbsentOnesOwnNoBuffers) {
     gpu::Device& device = gpu::testDevice();
     const auto absent = [&](const char* scene_name) {
@@ -118,31 +126,37 @@ TEST(Effects, AbsentOnesOwnNoBuffers) {
         return names;
     };
     const std::vector<std::string> cornell = absent("cornell");
-    for (const char* name : {"Tangents", "Colors", "ExtraUvs", "Textures", "SrgbTable", "texel_pages", "EnvironmentAlias"})
+    for (const char* name :
+         {"Tangents", "Colors", "ExtraUvs", "Textures", "SrgbTable", "texel_pages", "EnvironmentAlias"})
         EXPECT_EQ(std::count(cornell.begin(), cornell.end(), name), 1) << name;
     const std::vector<std::string> furnace = absent("furnace");
-    for (const char* name : {"Lights", "LightAlias"}) EXPECT_EQ(std::count(furnace.begin(), furnace.end(), name), 1) << name;
+    for (const char* name : {"Lights", "LightAlias"})
+        EXPECT_EQ(std::count(furnace.begin(), furnace.end(), name), 1) << name;
     const std::vector<std::string> gallery = absent("gallery");
-    for (const char* name : {"Tangents", "Textures", "SrgbTable", "texel_pages", "EnvironmentAlias", "Lights", "LightAlias"})
+    for (const char* name :
+         {"Tangents", "Textures", "SrgbTable", "texel_pages", "EnvironmentAlias", "Lights", "LightAlias"})
         EXPECT_EQ(std::count(gallery.begin(), gallery.end(), name), 0) << name;
 }
 
 class EveryScene : public testing::TestWithParam<const char*> {};
 
-// Programs specialised to the scene against programs with everything compiled in. The sample addresses are the same, so only the
-// compiler's freedom in fp32 may tell them apart; a rounding that turns a path at an edge changes that path wholly, which the z-test allows and counts.
+// Programs specialised to the scene against programs with everything compiled in. The sample addresses are
+// the same, so only the compiler's freedom in fp32 may tell them apart; a rounding that turns a path at an
+// edge changes that path wholly, which the z-test allows and counts.
 TEST_P(EveryScene, SpecialisedProgramsGiveTheSamePicture) {
     const Scene scene = builtin(GetParam());
     RenderSettings everything = small();
     everything.all_effects = true;
     const Film a = renderFilm(scene, scene.cameras[0], small(), 16);
     const Film b = renderFilm(scene, scene.cameras[0], everything, 16);
-    // Where most of the scene shines, the specialised program does not sample lights at all: another estimator of the same picture.
+    // Where most of the scene shines, the specialised program does not sample lights at all: another
+    // estimator of the same picture.
     const Effects effects = detectEffects(scene);
     const bool same_estimator = effects.has(kEffectLightTriangles) || !effects.has(kEffectEmission);
     std::size_t different = 0;
     for (std::size_t i = 0; i < a.mean.texels.size(); ++i)
-        different += std::abs(a.mean.texels[i] - b.mean.texels[i]) > 1e-5F * std::abs(b.mean.texels[i]) ? 1U : 0U;
+        different +=
+            std::abs(a.mean.texels[i] - b.mean.texels[i]) > 1e-5F * std::abs(b.mean.texels[i]) ? 1U : 0U;
     if (same_estimator) {
         EXPECT_LE(static_cast<double>(different), 0.01 * static_cast<double>(a.mean.texels.size()));
     }
@@ -153,11 +167,12 @@ TEST_P(EveryScene, BvhInStorageBuffersGivesTheSameBits) {
     const Scene scene = builtin(GetParam());
     RenderSettings storage = small();
     storage.storage_buffer_bvh = true;
-    EXPECT_TRUE(identical(renderFilm(scene, scene.cameras[0], small(), 2).mean, renderFilm(scene, scene.cameras[0], storage, 2).mean));
+    EXPECT_TRUE(identical(renderFilm(scene, scene.cameras[0], small(), 2).mean,
+                          renderFilm(scene, scene.cameras[0], storage, 2).mean));
 }
 
-// Every pixel's primary hit, traced again from the eye through the same point: the same primitive, or the neighbour across an edge that
-// lies within rounding of it.
+// Every pixel's primary hit, traced again from the eye through the same point: the same primitive, or the
+// neighbour across an edge that lies within rounding of it.
 TEST_P(EveryScene, TracedPrimaryHitsAreTheRasterisedOnes) {
     gpu::Device& device = gpu::testDevice();
     const Scene scene = builtin(GetParam());
@@ -175,12 +190,14 @@ TEST_P(EveryScene, TracedPrimaryHitsAreTheRasterisedOnes) {
     frame.view = makeView(scene.cameras[0], size, gpu_scene.bounds());
     frame.previous_view = frame.view;
     gpu_scene.describe(frame);
-    gpu::Buffer frame_buffer(device, "frame", sizeof(frame), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Memory::host_write);
+    gpu::Buffer frame_buffer(device, "frame", sizeof(frame), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+                             gpu::Memory::host_write);
     std::memcpy(frame_buffer.mapped(), &frame, sizeof(frame));
     struct Outcome {
         uint hits, different, far_away, lost;
     };
-    gpu::Buffer outcome(device, "outcome", sizeof(Outcome), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Memory::host_read);
+    gpu::Buffer outcome(device, "outcome", sizeof(Outcome), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+                        gpu::Memory::host_read);
     std::memset(outcome.mapped(), 0, sizeof(Outcome));
     std::vector<gpu::BoundResource> resources = gpu_scene.resources();
     for (const gpu::BoundResource& r : history.resources()) resources.push_back(r);
@@ -193,8 +210,10 @@ TEST_P(EveryScene, TracedPrimaryHitsAreTheRasterisedOnes) {
     gpu::Commands commands(device);
     commands.begin();
     recordGbuffer(commands, programs.gbuffer, gbuffer_bindings, gpu_scene, history, push);
-    commands.pass("retrace", {{&history.gbuffer, gpu::Access::compute_read}, {&outcome, gpu::Access::compute_read_write}},
-                  [&](const gpu::Pass& pass) { pass.dispatch(retrace, retrace_bindings, push, size.x, size.y); });
+    commands.pass(
+        "retrace",
+        {{&history.gbuffer, gpu::Access::compute_read}, {&outcome, gpu::Access::compute_read_write}},
+        [&](const gpu::Pass& pass) { pass.dispatch(retrace, retrace_bindings, push, size.x, size.y); });
     const gpu::Buffer* visible = &outcome;
     commands.makeVisibleToHost(std::span(&visible, 1));
     commands.submit();

@@ -1,4 +1,5 @@
-// The built-in scenes against stored means and variances (tests/image/references, made by update_references.sh with another seed).
+// The built-in scenes against stored means and variances (tests/image/references, made by
+// update_references.sh with another seed).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,7 +12,9 @@
 namespace licht {
 namespace {
 
-ExrPicture readStored(const std::string& name) { return readExr(std::string(LICHT_REFERENCES) + "/" + name + ".exr"); }
+ExrPicture readStored(const std::string& name) {
+    return readExr(std::string(LICHT_REFERENCES) + "/" + name + ".exr");
+}
 
 Film readReference(const ExrPicture& picture) {
     Film film;
@@ -28,7 +31,8 @@ Film readReference(const ExrPicture& picture) {
         const ExrChannel* variance = picture.find(std::string("variance.") + names[c]);
         EXPECT_NE(variance, nullptr);
         if (variance == nullptr) continue;
-        for (std::size_t i = 0; i < variance->values.size(); ++i) film.variance.texels[3 * i + c] = variance->values[i];
+        for (std::size_t i = 0; i < variance->values.size(); ++i)
+            film.variance.texels[3 * i + c] = variance->values[i];
     }
     return film;
 }
@@ -37,11 +41,13 @@ class Screenshot : public testing::TestWithParam<const char*> {};
 
 TEST_P(Screenshot, IsTheStoredPicture) {
     Scene scene = *makeBuiltinScene(GetParam());
-    if (isDark(scene)) scene.environment = constantEnvironment(vec3(1.0F));  // as the program does that made the references
+    if (isDark(scene))
+        scene.environment = constantEnvironment(vec3(1.0F));  // as the program does that made the references
     const ExrPicture stored = readStored(GetParam());
     const Film reference = readReference(stored);
     RenderSettings settings;
-    const auto bounces = std::find_if(stored.attributes.begin(), stored.attributes.end(), [](const auto& a) { return a.first == "licht.bounces"; });
+    const auto bounces = std::find_if(stored.attributes.begin(), stored.attributes.end(),
+                                      [](const auto& a) { return a.first == "licht.bounces"; });
     ASSERT_NE(bounces, stored.attributes.end());
     settings.bounces = static_cast<std::uint32_t>(std::stoul(bounces->second));
     settings.size = reference.size;

@@ -16,7 +16,8 @@ namespace {
 void addPlanes(ExrPicture& picture, const Image& image, const std::vector<std::string>& names) {
     for (std::size_t c = 0; c < names.size(); ++c) {
         ExrChannel channel{names[c], {}};
-        for (std::size_t i = c; i < image.texels.size(); i += static_cast<std::size_t>(image.channels)) channel.values.push_back(image.texels[i]);
+        for (std::size_t i = c; i < image.texels.size(); i += static_cast<std::size_t>(image.channels))
+            channel.values.push_back(image.texels[i]);
         picture.channels.push_back(std::move(channel));
     }
 }
@@ -32,7 +33,8 @@ void leave(const std::string& path, const Image& color, const Image* variance) {
 
 }  // namespace
 
-Film renderFilm(const Scene& scene, const Camera& camera, const RenderSettings& settings, std::uint32_t samples) {
+Film renderFilm(const Scene& scene, const Camera& camera, const RenderSettings& settings,
+                std::uint32_t samples) {
     Renderer renderer(gpu::testDevice(), scene, camera, settings);
     for (std::uint32_t i = 0; i < samples; ++i) renderer.renderSample();
     Film film = renderer.readFilm();
@@ -57,7 +59,8 @@ PictureMean pictureMean(const Film& film, int channel) {
 void expectMean(const Film& film, double exact) {
     for (int c = 0; c < 3; ++c) {
         const PictureMean picture = pictureMean(film, c);
-        EXPECT_NEAR(picture.mean, exact, 4.5 * picture.standard_error + 1e-5 * exact) << "standard error " << picture.standard_error;
+        EXPECT_NEAR(picture.mean, exact, 4.5 * picture.standard_error + 1e-5 * exact)
+            << "standard error " << picture.standard_error;
     }
 }
 
@@ -66,7 +69,8 @@ Camera downCamera(const vec3& centre, float half, float height) {
     camera.kind = Camera::Kind::orthographic;
     camera.y_extent = half;
     camera.z_near = 0.01F * height;
-    camera.world_from_view = mat4(vec4(1, 0, 0, 0), vec4(0, 0, -1, 0), vec4(0, 1, 0, 0), vec4(centre + vec3(0, height, 0), 1));
+    camera.world_from_view =
+        mat4(vec4(1, 0, 0, 0), vec4(0, 0, -1, 0), vec4(0, 1, 0, 0), vec4(centre + vec3(0, height, 0), 1));
     return camera;
 }
 
@@ -82,7 +86,8 @@ Material lambert(float albedo, float emission) {
 
 Image colorOf(const Film& film) {
     Image color(film.mean.width, film.mean.height, 3);
-    for (std::size_t i = 0; i < color.texels.size(); ++i) color.texels[i] = film.mean.texels[i / 3 * 4 + i % 3];
+    for (std::size_t i = 0; i < color.texels.size(); ++i)
+        color.texels[i] = film.mean.texels[i / 3 * 4 + i % 3];
     return color;
 }
 
@@ -96,9 +101,11 @@ void expectSamePicture(const Film& film, const Film& reference, const std::strin
     leave(folder / (name + "_image.exr"), color, &film.variance);
     leave(folder / (name + "_reference.exr"), reference_color, &reference.variance);
     leave(folder / (name + "_p_values.exr"), result.p_values, nullptr);
-    ADD_FAILURE() << name << ": " << 100.0 * result.pass_share << " % of the pixels pass, smallest p of a block " << result.smallest_block_p << " (threshold "
-                  << result.block_threshold << "), of the picture " << result.smallest_whole_p << " (threshold " << result.whole_threshold
-                  << "); pictures in " << std::filesystem::absolute(folder).string();
+    ADD_FAILURE() << name << ": " << 100.0 * result.pass_share
+                  << " % of the pixels pass, smallest p of a block " << result.smallest_block_p
+                  << " (threshold " << result.block_threshold << "), of the picture "
+                  << result.smallest_whole_p << " (threshold " << result.whole_threshold << "); pictures in "
+                  << std::filesystem::absolute(folder).string();
 }
 
 }  // namespace licht
