@@ -138,6 +138,19 @@ TEST(Effects, AbsentOnesOwnNoBuffers) {
         EXPECT_EQ(std::count(gallery.begin(), gallery.end(), name), 0) << name;
 }
 
+// lavapipe 22.3 compiles a program anew whenever a uniform that decides a branch might have changed (see
+// scene.glsl).
+TEST(Effects, ProgramsReadNoUniformBuffers) {
+    const Programs programs(gpu::testDevice(), {}, true);
+    for (const gpu::Program* program :
+         {&programs.gbuffer, &programs.path, &programs.accumulate, &programs.layers, &programs.tonemap}) {
+        EXPECT_FALSE(program->bindings().empty());
+        for (const gpu::ReflectedBinding& binding : program->bindings())
+            EXPECT_NE(binding.type, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER)
+                << program->name() << ": " << binding.name;
+    }
+}
+
 class EveryScene : public testing::TestWithParam<const char*> {};
 
 // Programs specialised to the scene against programs with everything compiled in. The sample addresses are
