@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
 #include "licht/gpu/commands.h"
@@ -84,6 +85,21 @@ TEST(Repeatability, MovingTheCameraAwayAndBackStartsAnew) {
     renderer.setCamera(scene.cameras[0]);
     for (int i = 0; i < 3; ++i) renderer.renderSample();
     EXPECT_TRUE(identical(renderer.readFilm().mean, fresh.mean));
+}
+
+// sqrt(mean of variance / (mean^2 + 0.01 * (the picture's mean)^2)), worked out by hand: the picture's mean
+// is 2.
+TEST(Estimators, RelativeErrorIsItsDefinition) {
+    Film film;
+    film.size = uvec2(2, 1);
+    film.mean = Image(2, 1, 4);
+    film.mean.texels = {1.0F, 1.0F, 1.0F, 1.0F, 3.0F, 3.0F, 3.0F, 1.0F};
+    film.variance = Image(2, 1, 3);
+    film.variance.texels = {0.1F, 0.1F, 0.1F, 0.2F, 0.2F, 0.2F};
+    film.samples = 1;
+    EXPECT_LT(relativeError(film), 0.0) << "unknown with one sample";
+    film.samples = 2;
+    EXPECT_NEAR(relativeError(film), std::sqrt(0.5 * (0.1 / 1.04 + 0.2 / 9.04)), 1e-7);
 }
 
 TEST(Estimators, BothFormsOfTheRenderingEquationAgree) {
