@@ -2,7 +2,7 @@
 
 find_program(LICHT_GLSLANG NAMES glslangValidator glslang REQUIRED)
 
-# licht_shaders(TARGET SCOPE DEBUG_NAME... ): compiles each FILE of this folder (its ending names the stage) and gives TARGET the header
+# licht_shaders(TARGET FILE...): compiles each FILE of this folder (its ending names the stage) and gives TARGET the header
 # "licht/spirv/<file with dots as underscores>.h", which holds `const uint32_t <same name>[]`.
 function(licht_shaders target)
   set(root ${CMAKE_CURRENT_BINARY_DIR}/spirv_${target})

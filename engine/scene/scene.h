@@ -12,6 +12,7 @@
 
 #include "licht/core/math.h"
 #include "licht/image/image.h"
+#include "licht/shared/bvh_numerics.h"
 
 namespace licht {
 
@@ -19,7 +20,7 @@ inline constexpr std::uint32_t kNone = 0xffffffffU;
 
 /// Coordinates beyond this (metres) are no geometry: squared distances of such points leave the range of a
 /// float.
-inline constexpr float kMaxCoordinate = 1.8e18F;
+inline constexpr float kMaxCoordinate = kBvhLargestCoordinate;
 
 /// True for a finite point within kMaxCoordinate on every axis.
 bool isPlace(const vec3& point);
@@ -124,8 +125,8 @@ struct PunctualLight {
     float range = 0.0F;  ///< metres; 0: unlimited
 };
 
-/// Radiance from infinitely far: a lat-long map in cd/m^2. Row 0 is the zenith (+Y). Column centre of the map
-/// looks along -Z... the formula stands once, in shaders/pure/latlong.glsl. A constant sky is a 1x1 map.
+/// Radiance from infinitely far: a lat-long map in cd/m^2. Row 0 is the zenith (+Y), the centre of the map looks along -Z and
+/// columns grow to the right as seen from inside (shaders/pure/latlong.glsl). A constant sky is a 1x1 map.
 struct Environment {
     std::string name;
     Image radiance;
