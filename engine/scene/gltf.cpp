@@ -9,6 +9,7 @@
 #include "licht/scene/gltf_accessor.h"
 #include "licht/scene/gltf_asset.h"
 #include "licht/scene/gltf_geometry.h"
+#include "licht/scene/gltf_instancing.h"
 #include "licht/scene/gltf_material.h"
 #include "licht/scene/gltf_nodes.h"
 #include "licht/scene/gltf_views.h"
@@ -69,22 +70,54 @@ private:
         const tinygltf::Node& source = asset_.model.nodes[index];
         const std::string name = objectName("node", index, source.name);
         const tinygltf::Mesh& mesh = at(asset_, asset_.model.meshes, source.mesh, name, "mesh");
-        // A skinned mesh stands where its joints are; its node's own transform does not count
-        // (glTF 2.0, 3.7.3.3).
-        const bool skinned = source.skin != -1;
-        const mat4 world_from_object = skinned ? mat4(1.0F) : mat4(tree_.world_from_node[index]);
-        if (const std::string_view fault = placementFault(world_from_object); !fault.empty()) {
-            asset_.skip(fmt::format("{}: {}", name, fault));
+        const std::vector<mat4> places = placesOf(node, name);
+        if (places.empty()) {
             return;
         }
         for (std::size_t p = 0; p < mesh.primitives.size(); ++p) {
             const std::uint32_t made =
-                skinned || !source.weights.empty() ? makeMesh(node, p) : sharedMesh(node, p);
-            if (made != kNone) {
+                source.skin != -1 || !source.weights.empty() ? makeMesh(node, p) : sharedMesh(node, p);
+            if (made == kNone) {
+                continue;
+            }
+            for (const mat4& world_from_object : places) {
                 scene_.instances.push_back(
                     {source.name.empty() ? name : source.name, made, world_from_object});
             }
         }
+    }
+
+    /// Where the node places its mesh: once, or as often as its instances say. Those that cannot be are left
+    /// out with a note.
+    std::vector<mat4> placesOf(int node, const std::string& name) {
+        const auto index = static_cast<std::size_t>(node);
+        // A skinned mesh stands where its joints are; its node's own transform does not count
+        // (glTF 2.0, 3.7.3.3).
+        const bool skinned = asset_.model.nodes[index].skin != -1;
+        const glm::dmat4 world_from_node = skinned ? glm::dmat4(1.0) : tree_.world_from_node[index];
+        std::optional<std::vector<glm::dmat4>> instances = readInstances(asset_, node);
+        if (instances && skinned) {
+            asset_.warn(fmt::format("{}: it has a skin, so its instances count as one", name));
+            instances.reset();
+        }
+        std::vector<mat4> places;
+        std::size_t left_out = 0;
+        std::string_view reason;
+        for (const glm::dmat4& node_from_object : instances.value_or(std::vector{glm::dmat4(1.0)})) {
+            const mat4 world_from_object(world_from_node * node_from_object);
+            if (const std::string_view fault = placementFault(world_from_object); !fault.empty()) {
+                ++left_out;
+                reason = reason.empty() ? fault : reason;
+            } else {
+                places.push_back(world_from_object);
+            }
+        }
+        if (left_out > 0) {
+            asset_.skip(instances ? fmt::format("{}: {} of its {} instances: {}", name, left_out,
+                                                instances->size(), reason)
+                                  : fmt::format("{}: {}", name, reason));
+        }
+        return places;
     }
 
     /// A primitive that several nodes place is made once.

@@ -17,12 +17,12 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::array<std::string_view, 9> kSupported{
-    "KHR_lights_punctual",    "KHR_materials_emissive_strength",
-    "KHR_materials_unlit",    "KHR_materials_specular",
-    "KHR_materials_ior",      "KHR_texture_transform",
-    "KHR_mesh_quantization",  "KHR_materials_iridescence",
-    "EXT_meshopt_compression"};
+constexpr std::array<std::string_view, 10> kSupported{
+    "KHR_lights_punctual",     "KHR_materials_emissive_strength",
+    "KHR_materials_unlit",     "KHR_materials_specular",
+    "KHR_materials_ior",       "KHR_texture_transform",
+    "KHR_mesh_quantization",   "KHR_materials_iridescence",
+    "EXT_meshopt_compression", "EXT_mesh_gpu_instancing"};
 
 bool supported(std::string_view extension) {
     return std::find(kSupported.begin(), kSupported.end(), extension) != kSupported.end();

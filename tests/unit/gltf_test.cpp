@@ -485,7 +485,7 @@ TEST_F(Gltf, PunctualLights) {
 
 TEST_F(Gltf, OptionalExtensionsThatAreUnknownWarnOnce) {
     GltfFile file = GltfFile::triangle();
-    file.json["extensionsUsed"] = {"KHR_materials_clearcoat", "EXT_mesh_gpu_instancing",
+    file.json["extensionsUsed"] = {"KHR_materials_clearcoat", "EXT_texture_webp",
                                    "KHR_draco_mesh_compression"};
     file.primitive()["material"] = 0;
     file.primitive()["extensions"] = {
