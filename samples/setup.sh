@@ -1,7 +1,7 @@
 # Read by demo.sh and tests/run.sh with `.`, from the project's root. Debian 12, Ubuntu 24.04 and newer.
 build_packages="g++ cmake ninja-build pkg-config glslang-tools libvulkan-dev mesa-vulkan-drivers libspirv-cross-c-shared-dev
-    libglm-dev libfmt-dev libtinygltf-dev libmeshoptimizer-dev libstb-dev nlohmann-json3-dev libopenexr-dev libglfw3-dev libcli11-dev"
-test_packages="libgtest-dev vulkan-validationlayers"
+    libglm-dev libfmt-dev libtinygltf-dev libmeshoptimizer-dev libstb-dev nlohmann-json3-dev libopenexr-dev libglfw3-dev libcli11-dev libtbb-dev"
+test_packages="libgtest-dev vulkan-validationlayers libembree-dev"
 build=build/release
 
 # install_missing PACKAGE...: installs what dpkg does not have, and says what.

@@ -1,3 +1,4 @@
+#include "licht/bvh/encode_node.h"
 #include "licht/bvh/ray_setup.h"
 
 namespace licht {
@@ -9,21 +10,20 @@ std::optional<BvhHit> intersectBruteForce(std::span<const BvhTriangle> triangles
             bounds.extend(boundsOf(triangle));
         }
     }
-    const std::optional<RaySetup> setup = setUpRay(ray, bounds);
+    const std::optional<RaySetup> setup = setUpRay(ray, gridBounds(bounds));
     if (!setup) {
         return std::nullopt;
     }
-    std::optional<BvhHit> nearest;
+    NearestHit nearest(*setup);
     for (std::uint32_t i = 0; i < triangles.size(); ++i) {
         if (!isUsable(triangles[i])) {
             continue;
         }
-        const std::optional<TriangleHit> hit = testTriangle(*setup, triangles[i]);
-        if (hit && hit->t >= ray.t_min && hit->t < (nearest ? nearest->t : ray.t_max)) {
-            nearest = BvhHit{i, hit->t, hit->b1, hit->b2};
+        if (const std::optional<TriangleHit> hit = testTriangle(*setup, triangles[i])) {
+            nearest.offer(i, *hit);
         }
     }
-    return nearest;
+    return nearest.result();
 }
 
 }  // namespace licht

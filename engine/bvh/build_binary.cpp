@@ -1,164 +1,154 @@
-// Wald 2007, On fast Construction of SAH-based Bounding Volume Hierarchies.
+#include <tbb/parallel_invoke.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cmath>
 
 #include "licht/bvh/binary_tree.h"
+#include "licht/bvh/build_split.h"
 
 namespace licht {
 namespace {
 
-constexpr int kBins = 16;
-constexpr double kNodeCost = 1.0;          // of one binary step; a triangle test costs 1
-constexpr std::uint32_t kSpareLevels = 8;  // that the heuristic may spend beyond 2 log2(n)
+constexpr std::uint32_t kTaskCount = 1U << 12U;  // triangles that are worth a task of their own
+constexpr std::uint32_t kSweepCount = 4;         // up to here every split is tried
+constexpr std::uint32_t kSpareLevels = 8;        // that the heuristic may spend beyond 2 log2(n)
 
-struct Bin {
-    Bounds bounds;
-    std::uint32_t count = 0;
-};
+std::uint32_t ceilLog2(std::uint32_t n) {
+    return static_cast<std::uint32_t>(std::bit_width(n - 1U));
+}
 
-struct Split {
-    double cost = std::numeric_limits<double>::infinity();  ///< sum of child area times count
-    int axis = 0;
-    int bin = 0;  ///< the first one of the right side
-};
+/// The nodes of n triangles are 2 n - 1 in a row: a node, those of its left half, those of its right half. So
+/// every task knows where to write, and the order is that of a walk.
+class BinaryBuilder {
+public:
+    BinaryBuilder(std::span<BinaryNode> nodes, std::uint32_t triangles)
+        : nodes_(nodes), depth_limit_(binaryDepthLimit(triangles) - 1) {}
 
-/// Maps twice the centroid of a reference to its bin, along each axis.
-struct Binning {
-    vec3 lower;
-    vec3 scale;  ///< 0: all centroids (nearly) the same along this axis
-
-    explicit Binning(const Bounds& centroids) : lower(centroids.lower), scale(0.0F) {
-        const vec3 size = centroids.size();
-        for (int axis = 0; axis < 3; ++axis) {
-            const float bins_per_unit = static_cast<float>(kBins) / size[axis];
-            scale[axis] = std::isfinite(bins_per_unit) ? bins_per_unit : 0.0F;
+    void build(BuildBuffers buffers, const BuildRange& range, std::uint32_t node, std::uint32_t depth) {
+        if (range.count <= kSweepCount) {
+            sweep({buffers.references + range.first, range.count}, range.bounds, node);
+            return;
+        }
+        // Sweeping the last few adds at most kSweepCount - 1 levels.
+        const bool out_of_depth = depth + ceilLog2(range.count) + kSweepCount > depth_limit_;
+        const BuildHalves halves = out_of_depth ? splitMiddle(buffers, range) : splitBinned(buffers, range);
+        const std::uint32_t left = node + 1;
+        const std::uint32_t right = node + 2 * halves.left.count;
+        write(node, range.bounds, left, right);
+        const auto buildLeft = [&] { build(buffers, halves.left, left, depth + 1); };
+        const auto buildRight = [&] { build(buffers, halves.right, right, depth + 1); };
+        if (range.count >= kTaskCount) {
+            tbb::parallel_invoke(buildLeft, buildRight);
+        } else {
+            buildLeft();
+            buildRight();
         }
     }
-    [[nodiscard]] int bin(const BuildReference& reference, int axis) const {
-        const float position = (reference.lower[axis] + reference.upper[axis] - lower[axis]) * scale[axis];
-        return std::min(static_cast<int>(position), kBins - 1);
+
+private:
+    void write(std::uint32_t node, const Box& box, std::uint32_t left, std::uint32_t right) {
+        nodes_[node].setBox(box);
+        nodes_[node].left = left;
+        nodes_[node].right = right;
     }
-};
 
-Bounds centroidBounds(std::span<const BuildReference> references) {
-    Bounds bounds;
-    for (const BuildReference& reference : references) {
-        bounds.extend(reference.lower + reference.upper);
-    }
-    return bounds;
-}
-
-Bounds boundsOf(std::span<const BuildReference> references) {
-    Bounds bounds;
-    for (const BuildReference& reference : references) {
-        bounds.extend(Bounds{reference.lower, reference.upper});
-    }
-    return bounds;
-}
-
-double weightedArea(const Bin& side) {
-    return static_cast<double>(side.bounds.halfArea()) * side.count;
-}
-
-void add(Bin& sum, const Bin& bin) {
-    sum.bounds.extend(bin.bounds);
-    sum.count += bin.count;
-}
-
-Split findSplit(std::span<const BuildReference> references, const Binning& binning) {
-    std::array<std::array<Bin, kBins>, 3> bins;
-    for (const BuildReference& reference : references) {
-        for (int axis = 0; axis < 3; ++axis) {
-            Bin& bin =
-                bins[static_cast<std::size_t>(axis)][static_cast<std::size_t>(binning.bin(reference, axis))];
-            bin.bounds.extend(Bounds{reference.lower, reference.upper});
-            ++bin.count;
+    /// The best of all splits along each axis.
+    void sweep(std::span<BuildReference> references, const Box& bounds, std::uint32_t node) {
+        const std::size_t count = references.size();
+        if (count == 1) {
+            write(node, references[0], references[0].id(), 0);
+            return;
         }
-    }
-    Split best;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        std::array<double, kBins> right_cost{};
-        Bin right;
-        for (std::size_t i = kBins - 1; i > 0; --i) {
-            add(right, bins[axis][i]);
-            right_cost[i] = right.count > 0 ? weightedArea(right) : std::numeric_limits<double>::infinity();
-        }
-        Bin left;
-        for (std::size_t i = 1; i < kBins; ++i) {
-            add(left, bins[axis][i - 1]);
-            const double cost = left.count > 0 ? weightedArea(left) + right_cost[i] : best.cost;
-            if (cost < best.cost) {
-                best = {cost, static_cast<int>(axis), static_cast<int>(i)};
+        using Order = std::array<std::uint8_t, kSweepCount>;
+        Order best_order{0, 1};
+        std::size_t best_left = 1;
+        Box best_left_box = references[0];
+        Box best_right_box = references[1];
+        if (count > 2) {
+            double best_cost = std::numeric_limits<double>::infinity();
+            for (int axis = 0; axis < 3; ++axis) {
+                const Order order = sorted(references, axis);
+                std::array<Box, kSweepCount> rights;
+                rights[count - 1] = references[order[count - 1]];
+                for (std::size_t i = count - 1; i-- > 1;) {
+                    rights[i] = rights[i + 1];
+                    rights[i].extend(references[order[i]]);
+                }
+                Box left;
+                for (std::size_t i = 1; i < count; ++i) {
+                    left.extend(references[order[i - 1]]);
+                    const double cost =
+                        static_cast<double>(left.halfArea()) * static_cast<double>(i) +
+                        static_cast<double>(rights[i].halfArea()) * static_cast<double>(count - i);
+                    if (cost < best_cost) {
+                        best_cost = cost;
+                        best_order = order;
+                        best_left = i;
+                        best_left_box = left;
+                        best_right_box = rights[i];
+                    }
+                }
+            }
+            std::array<BuildReference, kSweepCount> copy;
+            std::copy(references.begin(), references.end(), copy.begin());
+            for (std::size_t i = 0; i < count; ++i) {
+                references[i] = copy[best_order[i]];
             }
         }
+        const std::uint32_t left = node + 1;
+        const std::uint32_t right = node + 2 * static_cast<std::uint32_t>(best_left);
+        write(node, bounds, left, right);
+        sweep(references.first(best_left), best_left_box, left);
+        sweep(references.subspan(best_left), best_right_box, right);
     }
-    return best;
-}
 
-/// How many references go left; 0: make a leaf.
-std::uint32_t divide(std::span<BuildReference> references, const Bounds& bounds, bool halve) {
-    const auto count = static_cast<std::uint32_t>(references.size());
-    if (count == 1) {
-        return 0;
+    /// Insertion sort by centre; equal ones stay in order.
+    static std::array<std::uint8_t, kSweepCount> sorted(std::span<const BuildReference> references,
+                                                        int axis) {
+        std::array<std::uint8_t, kSweepCount> order{};
+        std::array<float, kSweepCount> keys;
+        for (std::size_t i = 0; i < references.size(); ++i) {
+            const float key = references[i].lower[axis] + references[i].upper[axis];
+            std::size_t at = i;
+            for (; at > 0 && key < keys[at - 1]; --at) {
+                keys[at] = keys[at - 1];
+                order[at] = order[at - 1];
+            }
+            keys[at] = key;
+            order[at] = static_cast<std::uint8_t>(i);
+        }
+        return order;
     }
-    const Bounds centroids = centroidBounds(references);
-    if (halve) {
-        const vec3 size = centroids.size();
-        const int axis = size.x >= size.y && size.x >= size.z ? 0 : (size.y >= size.z ? 1 : 2);
-        const auto before = [axis](const BuildReference& a, const BuildReference& b) {
-            const float position_a = a.lower[axis] + a.upper[axis];
-            const float position_b = b.lower[axis] + b.upper[axis];
-            return position_a < position_b || (position_a == position_b && a.id < b.id);
-        };
-        std::nth_element(references.begin(), references.begin() + count / 2, references.end(), before);
-        return count / 2;
-    }
-    const Binning binning(centroids);
-    const Split split = findSplit(references, binning);
-    const auto area = static_cast<double>(bounds.halfArea());
-    if (count <= kBvhMaxLeaf && area * count <= kNodeCost * area + split.cost) {
-        return 0;
-    }
-    if (!std::isfinite(split.cost)) {
-        return count / 2;  // identical centroids: any order is as good as another
-    }
-    const auto middle = std::partition(
-        references.begin(), references.end(),
-        [&](const BuildReference& reference) { return binning.bin(reference, split.axis) < split.bin; });
-    return static_cast<std::uint32_t>(middle - references.begin());
-}
+
+    std::span<BinaryNode> nodes_;
+    std::uint32_t depth_limit_;
+};
 
 }  // namespace
 
-std::vector<BinaryNode> buildBinary(std::span<BuildReference> references) {
-    const auto ceilLog2 = [](std::uint32_t n) { return static_cast<std::uint32_t>(std::bit_width(n - 1U)); };
-    const auto total = static_cast<std::uint32_t>(references.size());
-    const std::uint32_t depth_limit = 2 * ceilLog2(total) + kSpareLevels;
+std::uint32_t binaryDepthLimit(std::uint32_t triangles) {
+    return 2 * ceilLog2(triangles) + kSpareLevels + 1;
+}
 
-    struct Task {
-        std::uint32_t node;
-        std::uint32_t depth;
-    };
-    std::vector<BinaryNode> nodes{{boundsOf(references), 0, total, 0}};
-    std::vector<Task> tasks{{0, 0}};
-    while (!tasks.empty()) {
-        const Task task = tasks.back();
-        tasks.pop_back();
-        const BinaryNode node = nodes[task.node];
-        const auto own = references.subspan(node.first, node.count);
-        const std::uint32_t left = divide(own, node.bounds, task.depth + ceilLog2(node.count) >= depth_limit);
-        if (left == 0) {
-            continue;
-        }
-        const auto child = static_cast<std::uint32_t>(nodes.size());
-        nodes[task.node].left = child;
-        nodes.push_back({boundsOf(own.first(left)), node.first, left, 0});
-        nodes.push_back({boundsOf(own.subspan(left)), node.first + left, node.count - left, 0});
-        tasks.push_back({child + 1, task.depth + 1});
-        tasks.push_back({child, task.depth + 1});
+void buildBinary(std::span<BuildReference> references, std::span<BuildReference> scratch,
+                 std::span<BinaryNode> nodes) {
+    const auto count = static_cast<std::uint32_t>(references.size());
+    BinaryBuilder(nodes, count).build({references.data(), scratch.data()}, measureRange(references, 0), 0, 0);
+}
+
+std::vector<BinaryNode> buildBinary(std::span<const Bounds> boxes) {
+    if (boxes.empty()) {
+        return {};
     }
+    std::vector<BuildReference> references;
+    references.reserve(boxes.size());
+    for (std::uint32_t i = 0; i < boxes.size(); ++i) {
+        references.emplace_back(boxes[i], i);
+    }
+    std::vector<BuildReference> scratch(boxes.size());
+    std::vector<BinaryNode> nodes(2 * boxes.size() - 1);
+    buildBinary(references, scratch, nodes);
     return nodes;
 }
 

@@ -14,7 +14,7 @@ struct BvhTriangle {
     vec3 v0, v1, v2;
 };
 
-/// A 4-wide bounding volume hierarchy over triangles, in the layout that the shaders read
+/// A wide bounding volume hierarchy over triangles, in the layout that the shaders read
 /// (licht/shared/bvh_layout.h).
 struct Bvh {
     std::vector<BvhNode>
@@ -27,14 +27,29 @@ struct Bvh {
     std::uint32_t dropped =
         0;          ///< input triangles left out: a non-finite or > 1.8e18 coordinate, or exactly zero area
     Bounds bounds;  ///< of the kept triangles
+    std::uint32_t input_triangles = 0;  ///< kept or dropped
+    double sah_cost = 0.0;       ///< when it was built; see sahCost() (of the boxes before they were encoded)
+    double triangle_area = 0.0;  ///< when it was built: area of the triangles' own boxes over the root's
     double build_seconds = 0.0;
 };
 
+/// What a tree may cost to build, and give back to every ray.
+enum class BvhQuality {
+    fast,      ///< along a space-filling curve (Lauterbach et al. 2009, Fast BVH Construction on GPUs)
+    balanced,  ///< full binned SAH
+    best       ///< balanced, then improved by reinsertion
+};
+
+struct BvhBuildOptions {
+    BvhQuality quality = BvhQuality::balanced;
+};
+
 /// Builds by binned SAH (Wald 2007, On fast Construction of SAH-based Bounding Volume Hierarchies), binary,
-/// then collapsed to four children. Identical centroids fall back to halving by index, so the depth is
-/// bounded by 2 log2(n) + a constant and max_stack is exact. Deterministic: same input, same tree. Throws
-/// InputError for more than kBvhFirstMask triangles.
-Bvh buildBvh(std::span<const BvhTriangle> triangles);
+/// or as BvhQuality says, then collapsed to wide nodes at the least SAH cost, on all threads that oneTBB has.
+/// Each triangle is in one leaf. Identical centroids fall back to halving by index, so the depth is bounded
+/// by 2 log2(n) + a constant and max_stack is exact. Deterministic: same input, same tree, whatever the
+/// number of threads. Throws InputError for more than kBvhMostTriangles triangles.
+Bvh buildBvh(std::span<const BvhTriangle> triangles, const BvhBuildOptions& options = {});
 
 struct BvhHit {
     std::uint32_t triangle = 0;  ///< index of the input triangle

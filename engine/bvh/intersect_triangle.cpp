@@ -1,6 +1,8 @@
-// Woop, Benthin, Wald 2013, Watertight Ray/Triangle Intersection, without its culling and its swap of axes
-// (both sides count).
+// Woop, Benthin, Wald 2013, Watertight Ray/Triangle Intersection, without its culling, its swap of axes (both
+// sides count) and its look at zeros in double precision (zeros count as inside): the twin of
+// shaders/pure/intersect.glsl, which says why.
 #include <algorithm>
+#include <cmath>
 
 #include "licht/bvh/ray_setup.h"
 #include "licht/shared/bvh_numerics.h"
@@ -8,15 +10,25 @@
 namespace licht {
 namespace {
 
-/// a x b. Rounding is monotonic, so a sign is right or the value is zero; a zero is looked at again in double
-/// precision, where the products are exact.
+/// a x b. Rounding is monotonic, so a sign is right or the value is zero.
 float edgeFunction(const vec2& a, const vec2& b) {
-    const float value = a.x * b.y - a.y * b.x;
-    if (value != 0.0F) {
-        return value;
-    }
-    return static_cast<float>(static_cast<double>(a.x) * static_cast<double>(b.y) -
-                              static_cast<double>(a.y) * static_cast<double>(b.x));
+    return a.x * b.y - a.y * b.x;
+}
+
+float smallest(const vec3& v) {
+    return std::min(std::min(v.x, v.y), v.z);
+}
+
+float largest(const vec3& v) {
+    return std::max(std::max(v.x, v.y), v.z);
+}
+
+/// How far off the distance of a hit may be: kBvhDistanceSlack says why. z: distances to the vertices.
+float distanceUncertainty(const vec2& a, const vec2& b, const vec2& c, float determinant, const vec3& z) {
+    const float beside =
+        std::max(largest(glm::abs(vec3(a.x, b.x, c.x))), largest(glm::abs(vec3(a.y, b.y, c.y))));
+    const float away = beside + 2.0F * std::max(std::abs(smallest(z)), std::abs(largest(z)));
+    return kBvhDistanceSlack * (beside / std::abs(determinant) * away) * (largest(z) - smallest(z));
 }
 
 }  // namespace
@@ -45,38 +57,28 @@ std::optional<TriangleHit> testTriangle(const RaySetup& ray, const BvhTriangle& 
         return std::nullopt;
     }
 
-    const float b0 = u / determinant;
+    const vec3 x = vec3(a.x, b.x, c.x) * ray.reciprocal.x;
+    const vec3 y = vec3(a.y, b.y, c.y) * ray.reciprocal.y;
+    const vec3 z = vec3(a.z, b.z, c.z) * ray.shear.z;
     const float b1 = v / determinant;
     const float b2 = w / determinant;
-    const float t = b0 * (a.z * ray.shear.z) + b1 * (b.z * ray.shear.z) + b2 * (c.z * ray.shear.z);
+    const float t = u / determinant * z.x + b1 * z.y + b2 * z.z;
+    if (!(smallest(z) > 0.0F || t >= distanceUncertainty(pa, pb, pc, determinant, z))) {
+        return std::nullopt;
+    }
 
     // Keep the distance inside the triangle's box.
-    const vec3 lower = glm::min(glm::min(v0, v1), v2);
-    const vec3 upper = glm::max(glm::max(v0, v1), v2);
-    float nearest = -kInfinity;
-    float farthest = kInfinity;
-    for (int i = 0; i < 3; ++i) {
-        const bool negative = ray.negative[static_cast<std::size_t>(i)];
-        nearest =
-            std::max(nearest, ((negative ? upper[i] : lower[i]) - ray.origin_near[i]) * ray.reciprocal[i]);
-        farthest =
-            std::min(farthest, ((negative ? lower[i] : upper[i]) - ray.origin_far[i]) * ray.reciprocal[i]);
+    const float nearest =
+        std::max(std::max(smallest(x) - ray.slack.x, smallest(y) - ray.slack.y), smallest(z));
+    const float farthest = std::min(std::min(largest(x) + ray.slack.x, largest(y) + ray.slack.y), largest(z));
+    if (!(nearest <= farthest)) {
+        return std::nullopt;
     }
-    farthest = std::max(farthest * kBvhFarWider, farthest * kBvhFarNarrower);
     return TriangleHit{std::min(std::max(t, nearest), farthest), b1, b2};
 }
 
 std::optional<BvhHit> intersectTriangle(const Ray& ray, const BvhTriangle& triangle) {
-    const std::optional<RaySetup> setup =
-        isUsable(triangle) ? setUpRay(ray, boundsOf(triangle)) : std::nullopt;
-    if (!setup) {
-        return std::nullopt;
-    }
-    const std::optional<TriangleHit> hit = testTriangle(*setup, triangle);
-    if (!hit || !(hit->t >= ray.t_min && hit->t < ray.t_max)) {
-        return std::nullopt;
-    }
-    return BvhHit{0, hit->t, hit->b1, hit->b2};
+    return intersectBruteForce(std::span(&triangle, 1), ray);
 }
 
 }  // namespace licht

@@ -1,5 +1,7 @@
 #include "licht/bvh/ray_setup.h"
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "licht/shared/bvh_numerics.h"
@@ -26,26 +28,38 @@ std::optional<RaySetup> setUpRay(const Ray& ray, const Bounds& scene) {
     }
 
     RaySetup setup;
+    // The power of two at or below the longest component; one below the last, whose reciprocal would be
+    // denormal.
+    const std::uint32_t exponent = std::min(std::bit_cast<std::uint32_t>(length[kz]) >> 23U, 253U);
+    setup.distance_scale = std::bit_cast<float>(exponent << 23U);
+    const float direction_scale = std::bit_cast<float>((254U - exponent) << 23U);
+    setup.t_min = ray.t_min > 0.0F ? ray.t_min * setup.distance_scale : 0.0F;
+    setup.t_max = ray.t_max * setup.distance_scale;
+
     setup.axis = {(kz + 1) % 3, (kz + 2) % 3, kz};
     setup.origin = permuted(ray.origin, setup.axis);
-    const vec3 direction = permuted(ray.direction, setup.axis);
+    const vec3 direction = permuted(ray.direction * direction_scale, setup.axis);
     setup.shear = {direction.x / direction.z, direction.y / direction.z, 1.0F / direction.z};
 
     const vec3 reach = glm::max(glm::abs(permuted(scene.lower, setup.axis) - setup.origin),
                                 glm::abs(permuted(scene.upper, setup.axis) - setup.origin));
     const float shortest = std::abs(direction.z) * kBvhFlattestDirection;
-    for (int i = 0; i < 3; ++i) {
-        const auto k = static_cast<std::size_t>(i);
-        setup.negative[k] = direction[i] < 0.0F;
-        const float sign = setup.negative[k] ? -1.0F : 1.0F;
+    for (int i = 0; i < 2; ++i) {
+        const float sign = direction[i] < 0.0F ? -1.0F : 1.0F;
         setup.reciprocal[i] = 1.0F / (sign * std::max(std::abs(direction[i]), shortest));
         const float slack =
-            i == 2 ? 0.0F
-                   : (reach[i] + reach.z) * kBvhShearSlack + std::abs(setup.origin[i]) * kBvhOriginSlack;
-        setup.origin_near[i] = setup.origin[i] + sign * slack;
-        setup.origin_far[i] = setup.origin[i] - sign * slack;
+            (reach[i] + reach.z) * kBvhShearSlack + std::abs(setup.origin[i]) * kBvhOriginSlack;
+        setup.slack[i] = slack * std::abs(setup.reciprocal[i]);
     }
     return setup;
+}
+
+void NearestHit::offer(std::uint32_t triangle, const TriangleHit& hit) {
+    if (!(hit.t >= ray_.t_min && hit.t < ray_.t_max)) return;
+    const bool nearer = hit.t < t_ || (hit.t == t_ && best_ && triangle < best_->triangle);
+    if (!nearer) return;
+    t_ = hit.t;
+    best_ = BvhHit{triangle, hit.t / ray_.distance_scale, hit.b1, hit.b2};
 }
 
 bool isUsable(const BvhTriangle& triangle) {

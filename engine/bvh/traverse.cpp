@@ -1,116 +1,144 @@
-// The algorithm of shaders/bound/traversal.glsl: the same nodes and triangles in the same order.
+// The algorithm of shaders/bound/traversal.glsl, one ray at a time: the same nodes in the same order.
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <utility>
+#include <cmath>
+#include <vector>
 
+#include "licht/bvh/encode_node.h"
 #include "licht/bvh/ray_setup.h"
 #include "licht/shared/bvh_numerics.h"
 
 namespace licht {
 namespace {
 
-// Three waiting siblings for each of the levels that the builder can make of kBvhFirstMask triangles: 2 * 28
-// + 8.
-constexpr std::size_t kStackSize = std::size_t{3} * 64;
+/// A node's children that are nodes and wait, and from which end they are taken.
+struct Group {
+    std::uint32_t child_base = 0;
+    std::uint32_t slots = 0;  ///< bits
+    bool reversed = false;
 
-constexpr std::array<vec4 BvhNode::*, 6> kPlanes{&BvhNode::lower_x, &BvhNode::upper_x, &BvhNode::lower_y,
-                                                 &BvhNode::upper_y, &BvhNode::lower_z, &BvhNode::upper_z};
-
-struct Entry {
-    float distance = kInfinity;
-    std::uint32_t child = kBvhNoChild;
+    std::uint32_t take() {
+        std::uint32_t slot = reversed ? kBvhWidth - 1 : 0;
+        while ((slots >> slot & 1U) == 0) slot = reversed ? slot - 1 : slot + 1;
+        slots &= ~(1U << slot);
+        return child_base + slot;
+    }
 };
 
-void order(Entry& a, Entry& b) {
-    if (b.distance < a.distance) {
-        std::swap(a, b);
-    }
-}
+/// The children whose boxes a ray meets.
+struct Met {
+    std::uint32_t nodes = 0;  ///< bits of slots
+    std::uint32_t nearest = 0;
+    std::array<std::uint32_t, kBvhWidth> triangles{};  ///< positions in the leaves' order
+    std::size_t triangle_count = 0;
+};
 
-/// The children whose boxes the ray meets in [t_min, t_max], nearest first.
-std::array<Entry, 4> childrenMet(const RaySetup& ray, const BvhNode& node, float t_min, float t_max) {
-    vec4 nearest(t_min);
-    vec4 farthest(kInfinity);
-    for (std::size_t i = 0; i < 3; ++i) {
-        const auto axis = static_cast<glm::length_t>(i);
-        const std::size_t plane = static_cast<std::size_t>(ray.axis[i]) * 2;
-        const vec4& near_plane = node.*kPlanes[ray.negative[i] ? plane + 1 : plane];
-        const vec4& far_plane = node.*kPlanes[ray.negative[i] ? plane : plane + 1];
-        nearest = glm::max(nearest, (near_plane - ray.origin_near[axis]) * ray.reciprocal[axis]);
-        farthest = glm::min(farthest, (far_plane - ray.origin_far[axis]) * ray.reciprocal[axis]);
-    }
-    farthest = glm::min(glm::max(farthest * kBvhFarWider, farthest * kBvhFarNarrower), vec4(t_max));
-
-    std::array<Entry, 4> met;
-    for (std::size_t i = 0; i < 4; ++i) {
-        const auto slot = static_cast<glm::length_t>(i);
-        if (nearest[slot] <= farthest[slot]) {
-            met[i] = {nearest[slot], node.child[slot]};
+class BoxTest {
+public:
+    BoxTest(const Ray& ray, const RaySetup& setup) : origin_(ray.origin), t_min_(setup.t_min) {
+        for (int i = 0; i < 3; ++i) {
+            const int axis = setup.axis[static_cast<std::size_t>(i)];
+            reciprocal_[axis] = i == 2 ? setup.shear.z : setup.reciprocal[i];
+            slack_[axis] = i == 2 ? 0.0F : setup.slack[i];
         }
     }
-    order(met[0], met[1]);
-    order(met[2], met[3]);
-    order(met[0], met[2]);
-    order(met[1], met[3]);
-    order(met[1], met[2]);
-    return met;
-}
+
+    [[nodiscard]] bool negative(std::uint32_t axis) const {
+        return reciprocal_[static_cast<int>(axis)] < 0.0F;
+    }
+
+    [[nodiscard]] Met childrenMet(const BvhNode& node, float reach) const {
+        std::array<NodeChild, kBvhWidth> children;
+        const std::size_t count = decodeNode(node, children);
+        const Bounds grid = nodeBounds(node);
+        Met met;
+        float nearest = kInfinity;
+        for (std::uint32_t slot = 0; slot < count; ++slot) {
+            const NodeChild& child = children[slot];
+            float enter = t_min_;
+            float leave = reach;
+            for (int axis = 0; axis < 3; ++axis) {
+                const float slack = slack_[axis] + kBvhPlaneSlack * distance(axis, grid);
+                const float lower = (child.bounds.lower[axis] - origin_[axis]) * reciprocal_[axis];
+                const float upper = (child.bounds.upper[axis] - origin_[axis]) * reciprocal_[axis];
+                enter = std::max(enter, std::min(lower, upper) - slack);
+                leave = std::min(leave, std::max(lower, upper) + slack);
+            }
+            if (child.bounds.empty() || enter > leave) continue;
+            if (child.leaf) {
+                met.triangles[met.triangle_count++] = child.index;
+                continue;
+            }
+            met.nodes |= 1U << slot;
+            if (enter < nearest) {
+                nearest = enter;
+                met.nearest = slot;
+            }
+        }
+        return met;
+    }
+
+private:
+    /// |B| + 255 |A| of kBvhPlaneSlack.
+    [[nodiscard]] float distance(int axis, const Bounds& grid) const {
+        return (std::abs(grid.lower[axis] - origin_[axis]) + (grid.upper[axis] - grid.lower[axis])) *
+               std::abs(reciprocal_[axis]);
+    }
+
+    vec3 origin_;
+    vec3 reciprocal_{};
+    vec3 slack_{};
+    float t_min_;
+};
 
 }  // namespace
 
 std::optional<BvhHit> intersect(const Bvh& bvh, std::span<const BvhTriangle> triangles, const Ray& ray,
                                 TraversalSteps* steps) {
-    const std::optional<RaySetup> setup = setUpRay(ray, bvh.bounds);
+    const std::optional<RaySetup> setup = setUpRay(ray, nodeBounds(bvh.nodes.front()));
     if (!setup) {
         return std::nullopt;
     }
-    assert(bvh.max_stack <= kStackSize);
-    std::array<std::uint32_t, kStackSize> stack;
-    std::uint32_t stacked = 0;
+    const BoxTest boxes(ray, *setup);
+    NearestHit nearest(*setup);
     TraversalSteps counted;
-    std::optional<BvhHit> best;
+    std::vector<Group> waiting;
+    waiting.reserve(bvh.max_stack);
     std::uint32_t current = 0;
-    while (true) {
-        std::uint32_t next = kBvhNoChild;
-        if ((current & kBvhLeaf) == 0) {
-            ++counted.nodes;
-            const std::array<Entry, 4> met =
-                childrenMet(*setup, bvh.nodes[current], ray.t_min, best ? best->t : ray.t_max);
-            for (std::size_t i = 3; i > 0; --i) {
-                if (met[i].child != kBvhNoChild) {
-                    stack[stacked++] = met[i].child;
-                }
-            }
-            counted.stack = std::max(counted.stack, stacked);
-            next = met[0].child;
-        } else {
-            const std::uint32_t first = current & kBvhFirstMask;
-            const std::uint32_t count = (current & ~kBvhLeaf) >> kBvhCountShift;
-            counted.triangles += count;
-            for (std::uint32_t position = first; position < first + count; ++position) {
-                const std::uint32_t id = bvh.triangle_ids[position];
-                const std::optional<TriangleHit> hit = testTriangle(*setup, triangles[id]);
-                if (!hit || !(hit->t >= ray.t_min && hit->t < ray.t_max)) {
-                    continue;
-                }
-                if (!best || hit->t < best->t || (hit->t == best->t && id < best->triangle)) {
-                    best = BvhHit{id, hit->t, hit->b1, hit->b2};
-                }
+    while (current != kBvhNone) {
+        const BvhNode& node = bvh.nodes[current];
+        Met met = boxes.childrenMet(node, nearest.reach());
+        ++counted.nodes;
+        counted.triangles += static_cast<std::uint32_t>(met.triangle_count);
+        for (std::size_t i = 0; i < met.triangle_count; ++i) {
+            const std::uint32_t id = bvh.triangle_ids[met.triangles[i]];
+            if (const std::optional<TriangleHit> hit = testTriangle(*setup, triangles[id])) {
+                nearest.offer(id, *hit);
             }
         }
-        if (next == kBvhNoChild) {
-            if (stacked == 0) {
-                break;
+
+        // The nearest child first, the others along the axis on which they are sorted.
+        current = kBvhNone;
+        if (met.nodes != 0) {
+            std::array<NodeChild, kBvhWidth> children;
+            decodeNode(node, children);
+            current = children[met.nearest].index;
+            const std::uint32_t rest = met.nodes & ~(1U << met.nearest);
+            if (rest != 0) {
+                waiting.push_back({children[0].index, rest, boxes.negative(node.head >> kBvhAxisShift)});
+                counted.stack = std::max(counted.stack, static_cast<std::uint32_t>(waiting.size()));
             }
-            next = stack[--stacked];
+        } else if (!waiting.empty()) {
+            current = waiting.back().take();
+            if (waiting.back().slots == 0) waiting.pop_back();
         }
-        current = next;
     }
+    assert(counted.stack <= bvh.max_stack);
     if (steps != nullptr) {
         *steps = counted;
     }
-    return best;
+    return nearest.result();
 }
 
 std::optional<BvhHit> intersect(const Bvh& bvh, std::span<const BvhTriangle> triangles, const Ray& ray) {
