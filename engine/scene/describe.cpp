@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "licht/scene/effects.h"
+#include "licht/scene/instancing.h"
 
 namespace licht {
 namespace {
@@ -29,14 +31,24 @@ std::string_view nameOf(PunctualLight::Kind kind) {
 struct Counts {
     std::size_t triangles = 0;  ///< as drawn: a mesh counts once per instance
     std::size_t vertices = 0;
+    std::size_t stored_triangles = 0;  ///< a mesh that its instances share counts once
+    std::size_t sharing_instances = 0;
     std::size_t texture_bytes = 0;
 };
 
 Counts count(const Scene& scene) {
     Counts counts;
-    for (const Instance& instance : scene.instances) {
-        counts.triangles += scene.meshes[instance.mesh].triangles.size();
-        counts.vertices += scene.meshes[instance.mesh].positions.size();
+    const Instancing instancing = chooseInstanced(scene);
+    counts.sharing_instances = instancing.count;
+    std::set<std::uint32_t> shared;
+    for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+        const std::uint32_t index = scene.instances[i].mesh;
+        const Mesh& mesh = scene.meshes[index];
+        counts.triangles += mesh.triangles.size();
+        counts.vertices += mesh.positions.size();
+        if (instancing.instanced[i] == 0 || shared.insert(index).second) {
+            counts.stored_triangles += mesh.triangles.size();
+        }
     }
     for (const Texture& texture : scene.textures) {
         counts.texture_bytes += texture.bytes.size();
@@ -52,6 +64,8 @@ Json describeContents(const Scene& scene) {
     json["instances"] = scene.instances.size();
     json["triangles"] = counts.triangles;
     json["vertices"] = counts.vertices;
+    json["stored_triangles"] = counts.stored_triangles;
+    json["sharing_instances"] = counts.sharing_instances;
     json["materials"] = scene.materials.size();
     json["texture_bytes"] = counts.texture_bytes;
     json["textures"] = Json::array();
@@ -120,6 +134,10 @@ std::string describeSceneText(const Scene& scene) {
     std::string text = fmt::format("scene '{}'\n", scene.name);
     text += fmt::format("  geometry     {} triangles, {} vertices, {} instances of {} meshes\n",
                         counts.triangles, counts.vertices, scene.instances.size(), scene.meshes.size());
+    if (counts.sharing_instances > 0) {
+        text += fmt::format("  in memory    {} triangles, {} instances share theirs\n",
+                            counts.stored_triangles, counts.sharing_instances);
+    }
     if (bounds.empty()) {
         text += "  bounds       empty\n";
     } else {

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "licht/colour/transfer.h"
+#include "licht/scene/instancing.h"
 
 namespace licht {
 
@@ -28,6 +29,8 @@ const std::array<EffectInfo, kEffectCount>& effectTable() {
          "path"},
         {kEffectUnlit, "unlit", "surfaces that show their colour without light", "", "path"},
         {kEffectIridescence, "iridescence", "thin films colour what reflects", "", "path"},
+        {kEffectInstances, "instances", "meshes are stored once and placed often", "instance_transforms",
+         "gbuffer,path"},
     }};
     return kTable;
 }
@@ -165,6 +168,11 @@ public:
         }
         lookAtLights();
         lookAtEmittingArea();
+        if (const Instancing instancing = chooseInstanced(scene_); instancing.count > 0) {
+            call(kEffectInstances,
+                 fmt::format("mesh '{}' is used {} times", scene_.meshes[instancing.most_used].name,
+                             instancing.most_uses));
+        }
         return std::move(effects_);
     }
 

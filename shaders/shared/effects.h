@@ -17,7 +17,8 @@ LICHT_CONSTANT uint kEffectPunctualLights = 8u;
 LICHT_CONSTANT uint kEffectEnvironment = 9u;
 LICHT_CONSTANT uint kEffectUnlit = 10u;
 LICHT_CONSTANT uint kEffectIridescence = 11u;    // thin films
-LICHT_CONSTANT uint kEffectCount = 12u;
+LICHT_CONSTANT uint kEffectInstances = 12u;      // meshes that stand in memory once and in the scene often
+LICHT_CONSTANT uint kEffectCount = 13u;
 
 LICHT_SHARED_END
 #endif

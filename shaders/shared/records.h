@@ -8,7 +8,8 @@ LICHT_SHARED_BEGIN
 
 LICHT_CONSTANT uint kNoIndex = 0xffffffffu;
 
-// A vertex in world space. TEXCOORD_0 rides along; further sets, tangents and colours have buffers of their own, present only when called for.
+// A vertex, in world space unless its mesh is instanced: then in object space, seen from the mesh's centre. TEXCOORD_0 rides along; further sets,
+// tangents and colours have buffers of their own, present only when called for.
 struct VertexRecord {
     vec3 position;
     float u;
@@ -25,6 +26,20 @@ struct InstanceRecord {
     uint material;
     uint first_light;     // light index of primitive 0; kNoIndex: its triangles are not in the light table
     uint flags;
+};
+
+// Where an instance of a mesh stands: world = (dot(world_x, object), ...) + pivot. The way back is with the BVH, for rays alone.
+struct InstanceTransformRecord {
+    vec3 world_x;
+    float pivot_x;
+    vec3 world_y;
+    float pivot_y;
+    vec3 world_z;
+    float pivot_z;
+    float condition;  // how much rounding grows on the way to the object: the product of both matrices' largest row sums of magnitudes
+    uint mirrored;    // 1: the transform turns fronts into backs
+    uint reserved0;
+    uint reserved1;
 };
 
 // Kinds of texture slots.
@@ -96,6 +111,7 @@ struct MaterialRecord {
     TextureSlotRecord iridescence_slot;
     TextureSlotRecord iridescence_thickness_slot;
 };
+LICHT_CONSTANT uint kMaterialTexels = 22u;  // of four words
 
 LICHT_CONSTANT uint kLightTriangle = 0u;
 LICHT_CONSTANT uint kLightPoint = 1u;
@@ -180,6 +196,12 @@ LICHT_CONSTANT uint kConstantBvhStackSize = 65u;
 LICHT_CONSTANT uint kConstantTexturePages = 66u;
 LICHT_CONSTANT uint kConstantTextureSlotKinds = 67u;
 LICHT_CONSTANT uint kConstantWideTexels = 68u;
+LICHT_CONSTANT uint kConstantBakedInstances = 69u;
+LICHT_CONSTANT uint kConstantFirstInstancePosition = 70u;
+LICHT_CONSTANT uint kConstantInstanceSlack = 71u;  // the bits of a float
+LICHT_CONSTANT uint kConstantFirstInstanceTexel = 79u;
+LICHT_CONSTANT uint kConstantPathsPerThread = 72u;
+LICHT_CONSTANT uint kConstantSceneInStorage = 73u;
 
 // Counted on the device, summed on the host.
 struct CounterRecord {
