@@ -32,12 +32,16 @@ ProgressLine::~ProgressLine() {
 }
 
 void ProgressLine::show(const ProgressState& state) {
+    show(progressText(state));
+}
+
+void ProgressLine::show(const std::string& text) {
     if (!active_) return;
     const auto now = std::chrono::steady_clock::now();
     if (drawn_ && now - last_ < kShortestPause) return;
     last_ = now;
     drawn_ = true;
-    std::fputs((kClearLine + progressText(state)).c_str(), stream_);
+    std::fputs((kClearLine + text).c_str(), stream_);
     std::fflush(stream_);
 }
 

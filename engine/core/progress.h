@@ -28,6 +28,7 @@ public:
     ~ProgressLine();  ///< clears the line
 
     void show(const ProgressState& state);
+    void show(const std::string& text);
 
 private:
     std::FILE* stream_;

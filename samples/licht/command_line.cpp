@@ -34,11 +34,26 @@ std::string sceneHelp() {
     return help;
 }
 
+void addTriangles(CLI::App& app, SceneRequest& source, const std::string& default_count) {
+    addValue(app, "--triangles", "N",
+             "Triangles of a built-in scene that takes a count: 250000, 300k, 1M" + default_count,
+             [&source](std::string_view option, std::string_view text) {
+                 source.triangles = parseTriangles(option, text);
+             });
+}
+
+void addDevice(CLI::App& app, std::string& device) {
+    addValue(app, "--device", "NAME|INDEX",
+             "Vulkan device, see 'licht devices' (default: the best usable one)",
+             [&device](std::string_view, std::string_view text) { device = text; });
+}
+
 void addSource(CLI::App& app, SceneRequest& source) {
     app.add_option("SCENE", source.scene, sceneHelp())->required()->type_name("");
     addValue(app, "--camera", "NAME|INDEX",
              "Camera of the scene (default: its first, or one that frames everything)",
              [&source](std::string_view, std::string_view text) { source.camera = text; });
+    addTriangles(app, source, "");
     CLI::Option* environment =
         addValue(app, "--environment", "FILE", "Latitude-longitude sky, .hdr or .exr, in cd/m^2",
                  [&source](std::string_view, std::string_view text) { source.environment = text; });
@@ -61,9 +76,7 @@ void addLook(CLI::App& app, std::optional<uvec2>& size, std::optional<double>& e
     addValue(
         app, "--tonemap", "CURVE", "Display curve: none, neutral, agx or aces (default: neutral)",
         [&tonemap](std::string_view option, std::string_view text) { tonemap = parseTonemap(option, text); });
-    addValue(app, "--device", "NAME|INDEX",
-             "Vulkan device, see 'licht devices' (default: the best usable one)",
-             [&device](std::string_view, std::string_view text) { device = text; });
+    addDevice(app, device);
 }
 
 void addTransport(CLI::App& app, RenderSettings& settings) {
@@ -100,6 +113,9 @@ void addExpert(CLI::App& app, RenderSettings& settings) {
         ->group(group);
     app.add_flag("--all-effects", settings.all_effects,
                  "Compile every effect, whether the scene calls for it or not")
+        ->group(group);
+    app.add_flag("--flatten-instances", settings.flatten_instances,
+                 "Store every instance of a mesh as triangles of its own")
         ->group(group);
 }
 
@@ -156,6 +172,38 @@ void addView(CLI::App& app, ViewOptions& options) {
         "The picture becomes cleaner while nothing moves.");
 }
 
+void addBench(CLI::App& app, BenchOptions& options) {
+    options.source.scene = "terrain";
+    app.add_option("SCENE", options.source.scene, sceneHelp() + "\n(default: terrain)")->type_name("");
+    addTriangles(app, options.source, fmt::format(" (default: {})", kDefaultBenchTriangles));
+    addValue(app, "--camera", "NAME|INDEX", "Camera of the scene, as for render",
+             [&options](std::string_view, std::string_view text) { options.source.camera = text; });
+    addValue(app, "--size", "WxH", "Pixels, one path each (default: as for render)",
+             [&options](std::string_view option, std::string_view text) {
+                 options.size = parseSize(option, text);
+             });
+    addValue(app, "--runs", "N",
+             fmt::format("Timed runs, whose median counts (default: {})", kDefaultBenchRuns),
+             [&options](std::string_view option, std::string_view text) {
+                 options.runs = parseCount32(option, text, 1, 1000);
+             });
+    addValue(app, "--quality", "CHOICE",
+             "How well the BVH is built: fast, balanced or best (default: balanced)",
+             [&options](std::string_view option, std::string_view text) {
+                 options.quality = parseQuality(option, text);
+             });
+    addValue(app, "--json", "FILE", "Write all numbers as JSON",
+             [&options](std::string_view, std::string_view text) { options.json = text; });
+    addDevice(app, options.device);
+    app.add_flag("--quiet", options.quiet, "Show no progress");
+    app.footer(
+        "Rays: primary (what the rasteriser stands for), shadow, bounce1 and bounce2 (leaving the first and "
+        "second\n"
+        "vertex diffusely) and glossy (leaving the first by a GGX lobe), as the path tracer makes them, in "
+        "its order.\n"
+        "Where Embree is installed the same rays go through it on all cores, turn by turn with the device.");
+}
+
 void checkTogether(const RenderOptions& options) {
     const auto isExr = [](const std::filesystem::path& path) {
         return lowerCase(path.extension().string()) == ".exr";
@@ -182,6 +230,7 @@ Command parseCommandLine(int argument_count, const char* const* arguments) {
     InfoOptions info;
     DevicesOptions devices;
     ViewOptions view;
+    BenchOptions bench;
     CLI::App* render_app = app.add_subcommand("render", "Render a scene to files");
     addRender(*render_app, render);
     CLI::App* view_app = app.add_subcommand("view", "Look at a scene in a window");
@@ -189,6 +238,8 @@ Command parseCommandLine(int argument_count, const char* const* arguments) {
     CLI::App* info_app = app.add_subcommand("info", "Say what is in a scene and which effects it calls for");
     info_app->add_option("SCENE", info.scene, sceneHelp())->required()->type_name("");
     info_app->add_flag("--json", info.json, "As JSON");
+    CLI::App* bench_app = app.add_subcommand("bench", "Measure how fast rays find their hits in a scene");
+    addBench(*bench_app, bench);
     CLI::App* devices_app =
         app.add_subcommand("devices", "List every Vulkan device, chosen or refused with all reasons");
     devices_app->add_flag("--json", devices.json, "As JSON");
@@ -205,8 +256,9 @@ Command parseCommandLine(int argument_count, const char* const* arguments) {
     if (info_app->parsed()) return info;
     if (devices_app->parsed()) return devices;
     if (view_app->parsed()) return view;
+    if (bench_app->parsed()) return bench;
     if (!render_app->parsed())
-        throw InputError("a subcommand is needed: render, view, info or devices (see 'licht --help')");
+        throw InputError("a subcommand is needed: render, view, info, bench or devices (see 'licht --help')");
     checkTogether(render);
     return render;
 }

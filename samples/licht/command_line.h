@@ -11,7 +11,8 @@ struct PrintedText {
     std::string text;
 };
 
-using Command = std::variant<PrintedText, RenderOptions, InfoOptions, DevicesOptions, ViewOptions>;
+using Command =
+    std::variant<PrintedText, RenderOptions, InfoOptions, DevicesOptions, ViewOptions, BenchOptions>;
 
 /// Throws InputError of one line on wrong usage.
 Command parseCommandLine(int argument_count, const char* const* arguments);

@@ -7,6 +7,7 @@ namespace licht {
 int render(const RenderOptions& options);
 int view(const ViewOptions& options);
 int info(const InfoOptions& options);
+int bench(const BenchOptions& options);
 int devices(const DevicesOptions& options);
 
 }  // namespace licht

@@ -20,6 +20,7 @@ struct Run {
     }
     int operator()(const licht::RenderOptions& options) const { return licht::render(options); }
     int operator()(const licht::InfoOptions& options) const { return licht::info(options); }
+    int operator()(const licht::BenchOptions& options) const { return licht::bench(options); }
     int operator()(const licht::DevicesOptions& options) const { return licht::devices(options); }
     int operator()(const licht::ViewOptions& options) const { return licht::view(options); }
 };

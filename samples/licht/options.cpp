@@ -11,6 +11,7 @@
 
 #include "licht/command/text.h"
 #include "licht/core/error.h"
+#include "licht/scenes/builtin.h"
 
 namespace licht {
 namespace {
@@ -19,6 +20,9 @@ constexpr double kMaxExposure = 64.0;
 
 constexpr std::array<std::pair<std::string_view, Tonemap>, 4> kTonemaps{
     {{"none", Tonemap::none}, {"neutral", Tonemap::neutral}, {"agx", Tonemap::agx}, {"aces", Tonemap::aces}}};
+
+constexpr std::array<std::pair<std::string_view, BvhQuality>, 3> kQualities{
+    {{"fast", BvhQuality::fast}, {"balanced", BvhQuality::balanced}, {"best", BvhQuality::best}}};
 
 [[noreturn]] void refuse(std::string_view option, std::string_view text, std::string_view allowed) {
     throw InputError(fmt::format("{} '{}': must be {}", option, oneLine(text), allowed));
@@ -45,6 +49,14 @@ Choice choose(std::string_view option, std::string_view text,
     refuse(option, text, "one of " + names);
 }
 
+template <typename Choice, std::size_t n>
+std::string_view nameOf(Choice choice, const std::array<std::pair<std::string_view, Choice>, n>& choices) {
+    const auto found = std::find_if(choices.begin(), choices.end(),
+                                    [choice](const auto& known) { return known.second == choice; });
+    assert(found != choices.end());
+    return found->first;
+}
+
 }  // namespace
 
 uvec2 parseSize(std::string_view option, std::string_view text) {
@@ -61,6 +73,21 @@ uvec2 parseSize(std::string_view option, std::string_view text) {
     refuse(option, text,
            fmt::format("WIDTHxHEIGHT, each 1 to {} and at most {} pixels together", kMaxPictureSide,
                        kMaxPicturePixels));
+}
+
+std::uint64_t parseTriangles(std::string_view option, std::string_view text) {
+    std::string_view digits = text;
+    double unit = 1.0;
+    if (!digits.empty() && (digits.back() == 'k' || digits.back() == 'M')) {
+        unit = digits.back() == 'k' ? 1e3 : 1e6;
+        digits.remove_suffix(1);
+    }
+    const auto value = wholeNumber<double>(digits);
+    const double count = value.value_or(0.0) * unit;
+    if (count >= static_cast<double>(kFewestTriangles) && count <= static_cast<double>(kMostTriangles))
+        return static_cast<std::uint64_t>(std::llround(count));
+    refuse(option, text,
+           fmt::format("a count from {} to {}, as in 250000, 300k or 1M", kFewestTriangles, kMostTriangles));
 }
 
 std::uint64_t parseCount(std::string_view option, std::string_view text, std::uint64_t lowest,
@@ -105,10 +132,15 @@ Tonemap parseTonemap(std::string_view option, std::string_view text) {
 }
 
 std::string_view tonemapName(Tonemap curve) {
-    const auto found = std::find_if(kTonemaps.begin(), kTonemaps.end(),
-                                    [curve](const auto& known) { return known.second == curve; });
-    assert(found != kTonemaps.end());
-    return found->first;
+    return nameOf(curve, kTonemaps);
+}
+
+BvhQuality parseQuality(std::string_view option, std::string_view text) {
+    return choose(option, text, kQualities);
+}
+
+std::string_view qualityName(BvhQuality quality) {
+    return nameOf(quality, kQualities);
 }
 
 DirectLight parseDirectLight(std::string_view option, std::string_view text) {

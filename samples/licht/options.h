@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "licht/bvh/bvh.h"
 #include "licht/render/renderer.h"
 
 namespace licht {
@@ -24,6 +25,7 @@ struct SceneRequest {
     std::optional<std::string> camera;       ///< name or index; none: the first, or one that frames the scene
     std::optional<std::string> environment;  ///< path of an .hdr or .exr
     std::optional<vec3> background;          ///< cd/m^2, a constant sky; excludes environment
+    std::uint64_t triangles = 0;             ///< of a built-in scene that takes a count; 0: its own
 };
 
 /// Layers of an EXR file beside R G B A.
@@ -54,6 +56,19 @@ struct InfoOptions {
     bool json = false;
 };
 
+inline constexpr std::uint64_t kDefaultBenchTriangles = 300'000;  ///< of scenes that take a count
+inline constexpr std::uint32_t kDefaultBenchRuns = 5;
+
+struct BenchOptions {
+    SceneRequest source;
+    std::optional<uvec2> size;
+    std::uint32_t runs = kDefaultBenchRuns;
+    BvhQuality quality = BvhQuality::balanced;
+    std::string device;
+    std::optional<std::filesystem::path> json;
+    bool quiet = false;  ///< no progress
+};
+
 struct DevicesOptions {
     bool json = false;
 };
@@ -68,6 +83,8 @@ struct ViewOptions {
     std::uint64_t frames = 0;  ///< 0: until the window is closed
 };
 
+/// How many triangles: "250000", "300k", "1.5M"; kFewestTriangles to kMostTriangles.
+std::uint64_t parseTriangles(std::string_view option, std::string_view text);
 /// "960x540": each side 1 to kMaxPictureSide, at most kMaxPicturePixels together.
 uvec2 parseSize(std::string_view option, std::string_view text);
 /// A whole number from lowest to highest.
@@ -82,6 +99,9 @@ double parsePositive(std::string_view option, std::string_view text);
 double parseExposure(std::string_view option, std::string_view text);
 /// "R,G,B": finite, not negative.
 vec3 parseColour(std::string_view option, std::string_view text);
+BvhQuality parseQuality(std::string_view option, std::string_view text);
+/// As parseQuality reads it.
+std::string_view qualityName(BvhQuality quality);
 Tonemap parseTonemap(std::string_view option, std::string_view text);
 /// As parseTonemap reads it.
 std::string_view tonemapName(Tonemap curve);

@@ -65,7 +65,8 @@ std::string reportJson(const RenderReport& report) {
     json["cut_walks"] = statistics.cut_walks;
     json["effects"] = report.effects;
     json["memory"] = {{"host_peak_bytes", report.host_peak_bytes},
-                      {"device_bytes", report.device_peak_bytes}};
+                      {"device_bytes", report.device_peak_bytes},
+                      {"geometry_bytes", statistics.geometry_bytes}};
     json["notes"] = notesJson(report.notes);
     json["outputs"] = ordered_json::array();
     for (const auto& output : report.outputs) json["outputs"].push_back(output.string());

@@ -68,10 +68,27 @@ uvec2 defaultSize(const NamedScene& source, const Camera* camera) {
             kDefaultHeight};
 }
 
+std::string scenesThatCount() {
+    std::string names;
+    for (const BuiltinScene& scene : builtinScenes())
+        if (scene.triangles > 0) names += fmt::format("{}{}", names.empty() ? "" : ", ", scene.name);
+    return names;
+}
+
 }  // namespace
 
-NamedScene loadNamedScene(const std::string& source) {
-    if (auto builtin = makeBuiltinScene(source)) return {std::move(*builtin), source, true};
+bool takesTriangles(const std::string& source) {
+    const auto& scenes = builtinScenes();
+    return std::any_of(scenes.begin(), scenes.end(), [&](const BuiltinScene& scene) {
+        return scene.name == source && scene.triangles > 0;
+    });
+}
+
+NamedScene loadNamedScene(const std::string& source, std::uint64_t triangles) {
+    if (triangles > 0 && !takesTriangles(source))
+        throw InputError(fmt::format("--triangles: '{}' has triangles of its own; a count is for: {}", source,
+                                     scenesThatCount()));
+    if (auto builtin = makeBuiltinScene(source, triangles)) return {std::move(*builtin), source, true};
     const std::filesystem::path path(source);
     const std::string ending = lowerCase(path.extension().string());
     if (ending != ".gltf" && ending != ".glb") refuseScene(source);
@@ -79,7 +96,7 @@ NamedScene loadNamedScene(const std::string& source) {
 }
 
 NamedScene loadScene(const SceneRequest& request) {
-    NamedScene source = loadNamedScene(request.scene);
+    NamedScene source = loadNamedScene(request.scene, request.triangles);
     Scene& scene = source.scene;
     if (request.environment) {
         std::size_t replaced = 0;

@@ -10,14 +10,25 @@ namespace {
 
 struct Entry {
     BuiltinScene scene;
-    Scene (*make)();
+    Scene (*make)(std::uint64_t triangles);
 };
 
+template <Scene (*make)()>
+Scene fixed(std::uint64_t /*triangles*/) {
+    return make();
+}
+
 constexpr std::array kTable{
-    Entry{{"gallery", "a room lit by daylight and lamps: the demo"}, makeGallery},
-    Entry{{"cornell", "the Cornell box, from its measured data"}, makeCornell},
-    Entry{{"furnace", "closed and uniform: everything emits and reflects one half"}, makeFurnace},
-    Entry{{"empty", "a camera and nothing else"}, makeEmpty},
+    Entry{{"gallery", "a room lit by daylight and lamps: the demo"}, fixed<makeGallery>},
+    Entry{{"cornell", "the Cornell box, from its measured data"}, fixed<makeCornell>},
+    Entry{{"furnace", "closed and uniform: everything emits and reflects one half"}, fixed<makeFurnace>},
+    Entry{{"terrain", "mountains and boulders in the sun, of as many triangles as --triangles says", 100'000},
+          makeTerrain},
+    Entry{
+        {"spheres", "spheres of many sizes under a lamp, of as many triangles as --triangles says", 100'000},
+        makeSpheres},
+    Entry{{"meadow", "100,000 plants of three kinds, each kind stored once"}, fixed<makeMeadow>},
+    Entry{{"empty", "a camera and nothing else"}, fixed<makeEmpty>},
 };
 
 }  // namespace
@@ -31,11 +42,11 @@ const std::vector<BuiltinScene>& builtinScenes() {
     return scenes;
 }
 
-std::optional<Scene> makeBuiltinScene(std::string_view name) {
+std::optional<Scene> makeBuiltinScene(std::string_view name, std::uint64_t triangles) {
     const auto* const entry =
         std::find_if(kTable.begin(), kTable.end(), [name](const Entry& e) { return e.scene.name == name; });
     if (entry == kTable.end()) return std::nullopt;
-    return entry->make();
+    return entry->make(triangles == 0 ? entry->scene.triangles : triangles);
 }
 
 }  // namespace licht

@@ -1,5 +1,6 @@
 #pragma once
 // Scenes that are made in code, so that the program has something to draw wherever it runs.
+#include <cstdint>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -8,15 +9,20 @@
 
 namespace licht {
 
+/// What may be asked of a scene whose triangles are counted. It has at most 1 % more or fewer than asked for.
+inline constexpr std::uint64_t kFewestTriangles = 1'000;
+inline constexpr std::uint64_t kMostTriangles = 16'000'000;
+
 struct BuiltinScene {
     std::string_view name;
-    std::string_view meaning;  ///< one line for --help
+    std::string_view meaning;     ///< one line for --help
+    std::uint64_t triangles = 0;  ///< how many it has unless asked for another count; 0: it takes no count
 };
 
-/// cornell, furnace, gallery, empty.
+/// cornell, furnace, gallery, terrain, spheres, meadow, empty.
 const std::vector<BuiltinScene>& builtinScenes();
 
-/// The scene of that name, or nullopt.
-std::optional<Scene> makeBuiltinScene(std::string_view name);
+/// The scene of that name, or nullopt. `triangles` is heeded by scenes that take a count; 0: their own.
+std::optional<Scene> makeBuiltinScene(std::string_view name, std::uint64_t triangles = 0);
 
 }  // namespace licht

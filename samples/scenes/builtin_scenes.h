@@ -1,5 +1,7 @@
 #pragma once
 // One function a built-in scene; each has a file of its own.
+#include <cstdint>
+
 #include "licht/scene/scene.h"
 
 namespace licht {
@@ -8,5 +10,9 @@ Scene makeCornell();
 Scene makeFurnace();
 Scene makeGallery();
 Scene makeEmpty();
+Scene makeMeadow();
+/// kFewestTriangles to kMostTriangles, to within 1 %.
+Scene makeTerrain(std::uint64_t triangles);
+Scene makeSpheres(std::uint64_t triangles);
 
 }  // namespace licht

@@ -6,8 +6,8 @@
 namespace licht::gallery {
 namespace {
 
-constexpr int kWidth = 512;
-constexpr int kHeight = 256;
+constexpr std::uint32_t kWidth = 512;
+constexpr std::uint32_t kHeight = 256;
 
 /// Towards the sun: out of the window, a little beyond the room's far end.
 const vec3 kSun = glm::normalize(vec3(-0.66F, 0.60F, -0.45F));
@@ -35,21 +35,7 @@ vec3 skyRadiance(const vec3& direction, float longitude) {
 }  // namespace
 
 Environment afternoonSky() {
-    Environment sky;
-    sky.name = "late afternoon";
-    sky.radiance = Image(kWidth, kHeight, 3);
-    for (int y = 0; y < kHeight; ++y) {
-        const float polar = kPi * (static_cast<float>(y) + 0.5F) / static_cast<float>(kHeight);
-        for (int x = 0; x < kWidth; ++x) {
-            const float longitude = (static_cast<float>(x) + 0.5F) / static_cast<float>(kWidth);
-            const float azimuth = 2.0F * kPi * (longitude - 0.5F);
-            const vec3 direction{std::sin(polar) * std::sin(azimuth), std::cos(polar),
-                                 -std::sin(polar) * std::cos(azimuth)};
-            const vec3 radiance = skyRadiance(direction, longitude);
-            for (int channel = 0; channel < 3; ++channel) sky.radiance.at(x, y, channel) = radiance[channel];
-        }
-    }
-    return sky;
+    return paintSky("late afternoon", kWidth, kHeight, skyRadiance);
 }
 
 }  // namespace licht::gallery

@@ -101,4 +101,23 @@ Texture paintNormals(std::string name, std::uint32_t size, float slope,
     });
 }
 
+Environment paintSky(std::string name, std::uint32_t width, std::uint32_t height,
+                     const std::function<vec3(const vec3&, float)>& radiance) {
+    Environment sky;
+    sky.name = std::move(name);
+    sky.radiance = Image(static_cast<int>(width), static_cast<int>(height), 3);
+    for (int y = 0; y < sky.radiance.height; ++y) {
+        const float polar = kPi * (static_cast<float>(y) + 0.5F) / static_cast<float>(height);
+        for (int x = 0; x < sky.radiance.width; ++x) {
+            const float longitude = (static_cast<float>(x) + 0.5F) / static_cast<float>(width);
+            const float azimuth = 2.0F * kPi * (longitude - 0.5F);
+            const vec3 direction{std::sin(polar) * std::sin(azimuth), std::cos(polar),
+                                 -std::sin(polar) * std::cos(azimuth)};
+            const vec3 texel = radiance(direction, longitude);
+            for (int channel = 0; channel < 3; ++channel) sky.radiance.at(x, y, channel) = texel[channel];
+        }
+    }
+    return sky;
+}
+
 }  // namespace licht

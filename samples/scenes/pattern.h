@@ -30,4 +30,8 @@ Texture paintTexture(std::string name, std::uint32_t width, std::uint32_t height
 Texture paintNormals(std::string name, std::uint32_t size, float slope,
                      const std::function<float(const vec2& uv)>& height);
 
+/// A latitude-longitude sky of the radiance towards each texel's centre (unit direction), in cd/m^2.
+Environment paintSky(std::string name, std::uint32_t width, std::uint32_t height,
+                     const std::function<vec3(const vec3& direction, float longitude)>& radiance);
+
 }  // namespace licht

@@ -125,17 +125,19 @@ TEST_P(Builtin, IsTheSameEachTime) {
         EXPECT_EQ(first->textures[k].bytes, second->textures[k].bytes);
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, Builtin, testing::Values("cornell", "furnace", "gallery", "empty"),
+INSTANTIATE_TEST_SUITE_P(Scenes, Builtin,
+                         testing::Values("cornell", "furnace", "gallery", "terrain", "spheres", "empty"),
                          [](const testing::TestParamInfo<std::string>& scene) { return scene.param; });
 
-TEST(BuiltinTable, NamesTheFourScenes) {
+TEST(BuiltinTable, NamesEveryScene) {
     std::vector<std::string_view> names;
     for (const BuiltinScene& scene : builtinScenes()) {
         names.push_back(scene.name);
         EXPECT_FALSE(scene.meaning.empty());
     }
     std::sort(names.begin(), names.end());
-    EXPECT_EQ(names, (std::vector<std::string_view>{"cornell", "empty", "furnace", "gallery"}));
+    EXPECT_EQ(names, (std::vector<std::string_view>{"cornell", "empty", "furnace", "gallery", "meadow",
+                                                    "spheres", "terrain"}));
     EXPECT_FALSE(makeBuiltinScene("Cornell"));
     EXPECT_FALSE(makeBuiltinScene(""));
 }

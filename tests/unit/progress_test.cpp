@@ -58,7 +58,7 @@ TEST(ProgressLine, RewritesItselfOnATerminalAndClearsAtTheEnd) {
     const Terminal terminal;
     {
         ProgressLine line(terminal.stream(), false);
-        line.show({1, 4, 0.1, -1.0, -1.0});
+        line.show(ProgressState{1, 4, 0.1, -1.0, -1.0});
     }
     const std::string text = terminal.written();
     EXPECT_NE(text.find("1/4 samples"), std::string::npos) << text;
@@ -73,7 +73,7 @@ TEST(ProgressLine, IsDrawnAtMostTenTimesASecond) {
     {
         ProgressLine line(terminal.stream(), false);
         for (std::uint64_t i = 0; i < 30; ++i) {
-            line.show({i, 0, 0.0, -1.0, -1.0});
+            line.show(ProgressState{i, 0, 0.0, -1.0, -1.0});
             std::this_thread::sleep_for(std::chrono::milliseconds(10));
         }
     }
@@ -85,12 +85,12 @@ TEST(ProgressLine, IsDrawnAtMostTenTimesASecond) {
 
 TEST(ProgressLine, IsSilentWhenQuietOrNoTerminal) {
     const Terminal terminal;
-    { ProgressLine(terminal.stream(), true).show({1, 4, 0.1, -1.0, -1.0}); }
+    { ProgressLine(terminal.stream(), true).show(ProgressState{1, 4, 0.1, -1.0, -1.0}); }
     EXPECT_EQ(terminal.written(), "");
 
     std::FILE* file = std::tmpfile();
     ASSERT_NE(file, nullptr);
-    { ProgressLine(file, false).show({1, 4, 0.1, -1.0, -1.0}); }
+    { ProgressLine(file, false).show(ProgressState{1, 4, 0.1, -1.0, -1.0}); }
     EXPECT_EQ(std::ftell(file), 0);
     std::fclose(file);
 }

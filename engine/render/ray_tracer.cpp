@@ -1,0 +1,81 @@
+#include "licht/render/ray_tracer.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+
+#include "licht/spirv/trace_rays_comp.h"
+
+namespace licht {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Long enough that the cost of a submission (about 0.1 ms) is not seen, short enough for every watchdog.
+constexpr double kSliceSeconds = 0.25;
+constexpr uint kFirstSlice = 1U << 14U;
+// 65,535 workgroups of 64 are what every device runs at once.
+constexpr uint kLargestSlice = 1U << 21U;
+
+gpu::SpecConstants constantsOf(const GpuBvh& bvh, bool any_hit) {
+    gpu::SpecConstants constants{{kConstantAnyHit, any_hit ? 1U : 0U}};
+    bvh.addTo(constants);
+    return constants;
+}
+
+std::vector<gpu::BoundResource> with(const GpuBvh& bvh, std::vector<gpu::BoundResource> resources) {
+    bvh.addTo(resources);
+    return resources;
+}
+
+}  // namespace
+
+RayTracer::RayTracer(gpu::Device& device, const GpuBvh& bvh, std::span<const RayRecord> rays, bool any_hit)
+    : device_(&device),
+      ray_count_(static_cast<uint>(rays.size())),
+      slice_(kFirstSlice),
+      program_(gpu::Program::compute(device, any_hit ? "trace_rays any" : "trace_rays nearest",
+                                     trace_rays_comp, constantsOf(bvh, any_hit))),
+      rays_(gpu::uploadBuffer(device, "rays", rays, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT)),
+      hits_(device, "ray hits", rays.size() * sizeof(RayHitRecord),
+            VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT, gpu::Memory::device),
+      range_(device, "ray range", sizeof(RayRange), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+             gpu::Memory::host_write),
+      bindings_(device, program_, with(bvh, {{"Range", &range_}, {"Rays", &rays_}, {"RayHits", &hits_}})),
+      commands_(device) {}
+
+double RayTracer::traceRange(const RayRange& range) {
+    std::memcpy(range_.mapped(), &range, sizeof(range));
+    const Clock::time_point start = Clock::now();
+    commands_.begin();
+    commands_.pass("trace_rays", {{&rays_, gpu::Access::compute_read}, {&hits_, gpu::Access::compute_write}},
+                   [&](const gpu::Pass& pass) { pass.dispatch(program_, bindings_, range.count); });
+    commands_.submit();
+    commands_.wait();
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+double RayTracer::trace() {
+    double seconds = 0.0;
+    uint slice = 0;
+    for (RayRange range{0, 0}; range.first < ray_count_; range.first += slice) {
+        slice = std::min(slice_, ray_count_ - range.first);
+        range.count = slice;
+        const double needed = traceRange(range);
+        seconds += needed;
+        // At most twice as many at once: rays further on may cost more.
+        const double fitting = kSliceSeconds / needed * slice;
+        slice_ =
+            static_cast<uint>(std::clamp(fitting, 1024.0, std::min(2.0 * slice_, double{kLargestSlice})));
+    }
+    return seconds;
+}
+
+std::vector<RayHitRecord> RayTracer::hits() const {
+    const std::vector<std::byte> bytes = gpu::readBuffer(*device_, hits_);
+    std::vector<RayHitRecord> records(ray_count_);
+    std::memcpy(records.data(), bytes.data(), records.size() * sizeof(RayHitRecord));
+    return records;
+}
+
+}  // namespace licht
