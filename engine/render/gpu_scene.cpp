@@ -2,8 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <iterator>
+#include <tuple>
 
 #include "licht/colour/transfer.h"
 #include "licht/core/error.h"
@@ -78,6 +82,36 @@ uint slotKinds(const MaterialRecord& r) {
            bit(r.iridescence_thickness_slot, kSlotIridescenceThickness);
 }
 
+InstanceTransformRecord transformRecord(const BvhInstance& placed) {
+    const mat3 rows = glm::transpose(placed.world_from_object);
+    return {rows[0],
+            placed.pivot.x,
+            rows[1],
+            placed.pivot.y,
+            rows[2],
+            placed.pivot.z,
+            placed.condition,
+            placed.mirrored ? 1U : 0U,
+            0,
+            0};
+}
+
+constexpr VkBufferUsageFlags kFetched =
+    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
+static_assert(sizeof(MaterialRecord) == kMaterialTexels * sizeof(uvec4));
+
+/// triangle: of the device's list.
+TriangleName nameOf(const FlatGeometry& geometry, uint triangle) {
+    if (triangle < geometry.triangle_instances.size()) {
+        const uint instance = geometry.triangle_instances[triangle];
+        return {triangle, instance, triangle - geometry.instances[instance].first_triangle};
+    }
+    const auto next =
+        std::upper_bound(geometry.pieces.begin(), geometry.pieces.end(), triangle,
+                         [](uint value, const MeshPiece& piece) { return value < piece.first_triangle; });
+    return {triangle, 0, triangle - std::prev(next)->first_triangle};
+}
+
 }  // namespace
 
 GpuScene::GpuScene(gpu::Device& device, const Scene& scene, const Effects& effects, const Options& options)
@@ -87,72 +121,144 @@ GpuScene::GpuScene(gpu::Device& device, const Scene& scene, const Effects& effec
             gpu::Memory::device),
       sampler_(device, VK_FILTER_NEAREST, VK_SAMPLER_ADDRESS_MODE_REPEAT,
                VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE) {
+    const InstanceOrder order = orderInstances(scene, effects);
     std::vector<uint> first_light;
-    uploadLights(scene, effects, options.sample_surfaces_and_sky, first_light);
-    uploadGeometry(scene, effects, first_light, options.storage_buffer_bvh);
+    uploadLights(scene, effects, order, options.sample_surfaces_and_sky, first_light);
+    const std::uint64_t before = bytes_;
+    uploadGeometry(scene, effects, order, first_light, options.storage_buffers);
+    geometry_bytes_ = bytes_ - before;
     uploadMaterials(scene, effects);
+    viewRecords(options.storage_buffers);
 }
 
 template <typename T>
 gpu::Buffer GpuScene::upload(const char* name, const std::vector<T>& values, VkBufferUsageFlags usage) {
     const std::uint64_t bytes = values.size() * sizeof(T);
     const std::uint64_t limit = device_->limits().maxStorageBufferRange;
-    if ((usage & VK_BUFFER_USAGE_STORAGE_BUFFER_BIT) != 0 && bytes > limit)
+    if (usage == VK_BUFFER_USAGE_STORAGE_BUFFER_BIT && bytes > limit)
         throw InputError(fmt::format(
             "the scene's {} take {} bytes, and this device's buffers hold at most {}", name, bytes, limit));
+    bytes_ += bytes;
     return gpu::uploadBuffer(*device_, name, std::span<const T>(values), usage);
 }
 
-void GpuScene::uploadGeometry(const Scene& scene, const Effects& effects,
-                              const std::vector<uint>& first_light, bool storage_buffer_bvh) {
-    const FlatGeometry geometry = flattenGeometry(scene, effects, first_light);
+void GpuScene::uploadGeometry(const Scene& scene, const Effects& effects, const InstanceOrder& order,
+                              const std::vector<uint>& first_light, bool storage_buffers) {
+    const FlatGeometry geometry = flattenGeometry(scene, effects, order, first_light);
     bounds_ = geometry.bounds;
     extra_uv_sets_ = geometry.extra_uv_sets;
-    vertices_ = upload("vertices", geometry.vertices);
-    triangle_indices_ = upload("triangle_indices", geometry.indices);
-    instances_ = upload("instances", geometry.instances);
-    triangle_instances_ = upload("triangle_instances", geometry.triangle_instances);
+    vertices_ = upload("vertices", geometry.vertices, kFetched);
+    triangle_indices_ = upload("triangle_indices", geometry.indices, kFetched);
+    instances_ = upload("instances", geometry.instances, kFetched);
     if (!geometry.tangents.empty()) tangents_ = upload("tangents", geometry.tangents);
     if (!geometry.colors.empty()) colors_ = upload("colors", geometry.colors);
     if (!geometry.extra_uvs.empty()) extra_uvs_ = upload("extra_uvs", geometry.extra_uvs);
-    for (std::size_t i = 0; i < geometry.instances.size(); ++i) {
-        const InstanceRecord& record = geometry.instances[i];
-        const auto triangles = static_cast<uint>(scene.meshes[scene.instances[i].mesh].triangles.size());
-        draws_.push_back(
-            {3 * record.first_triangle, 3 * triangles, (record.flags & kInstanceDoubleSided) != 0});
-    }
-    uploadBvh(worldTriangles(geometry), storage_buffer_bvh);
+    addDraws(geometry);
+    uploadBvh(geometry, storage_buffers);
 }
 
-void GpuScene::uploadBvh(const std::vector<BvhTriangle>& triangles, bool storage) {
-    const Bvh bvh = buildBvh(triangles);
-    bvh_seconds_ = bvh.build_seconds;
-    bvh_dropped_ = bvh.dropped;
-    stack_size_ = std::max(bvh.max_stack, 1U);
-    std::vector<vec4> positions;
-    positions.reserve(kBvhTexelsPerTriangle * bvh.triangle_ids.size());
-    for (const uint id : bvh.triangle_ids)
-        for (const vec3& v : {triangles[id].v0, triangles[id].v1, triangles[id].v2})
-            positions.emplace_back(v, 0.0F);
-    const std::size_t most_texels = std::max(kBvhTexelsPerNode * bvh.nodes.size(), positions.size());
-    bvh_in_storage_ = storage || most_texels > device_->limits().maxTexelBufferElements;
-    const VkBufferUsageFlags usage =
-        bvh_in_storage_ ? VK_BUFFER_USAGE_STORAGE_BUFFER_BIT : VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
-    nodes_ = upload("bvh_nodes", bvh.nodes, usage);
-    bvh_triangles_ = upload("bvh_triangles", positions, usage);
-    triangle_ids_ = upload("bvh_triangle_ids", bvh.triangle_ids);
-    const gpu::Buffer& nodes = bvh_in_storage_ ? none_ : nodes_;
-    nodes_view_ = gpu::TexelView(*device_, nodes, VK_FORMAT_R32G32B32A32_SFLOAT);
-    children_view_ = gpu::TexelView(*device_, nodes, VK_FORMAT_R32G32B32A32_UINT);
-    triangles_view_ =
-        gpu::TexelView(*device_, bvh_in_storage_ ? none_ : bvh_triangles_, VK_FORMAT_R32G32B32A32_SFLOAT);
+// glTF: back faces of single-sided materials are not drawn. Rays meet both sides, so that visibility stays
+// symmetric.
+void GpuScene::addDraws(const FlatGeometry& geometry) {
+    const auto cull = [](const InstanceRecord& record, VkCullModeFlags back) {
+        return (record.flags & kInstanceDoubleSided) != 0 ? VkCullModeFlags{VK_CULL_MODE_NONE} : back;
+    };
+    const std::size_t baked = geometry.instances.size() - geometry.placements.size();
+    for (std::size_t i = 0; i < baked; ++i) {
+        const uint first = geometry.instances[i].first_triangle;
+        const uint end = i + 1 < baked ? geometry.instances[i + 1].first_triangle
+                                       : static_cast<uint>(geometry.triangle_instances.size());
+        draws_.push_back({3 * first, 3 * (end - first), static_cast<uint>(i), 1,
+                          cull(geometry.instances[i], VK_CULL_MODE_BACK_BIT)});
+    }
+    for (std::size_t k = 0; k < geometry.placements.size(); ++k) {
+        const BvhInstance& placed = geometry.placements[k];
+        if (k > 0 && placed.mesh == geometry.placements[k - 1].mesh &&
+            placed.mirrored == geometry.placements[k - 1].mirrored) {
+            ++draws_.back().instance_count;
+            continue;
+        }
+        const MeshPiece& piece = geometry.pieces[placed.mesh];
+        draws_.push_back({3 * piece.first_triangle, 3 * piece.triangle_count, static_cast<uint>(baked + k), 1,
+                          cull(geometry.instances[baked + k],
+                               placed.mirrored ? VK_CULL_MODE_FRONT_BIT : VK_CULL_MODE_BACK_BIT)});
+    }
+}
+
+void GpuScene::uploadBvh(const FlatGeometry& geometry, bool storage) {
+    std::vector<std::vector<BvhTriangle>> meshes;
+    std::vector<uint> triangle_counts{static_cast<uint>(geometry.triangle_instances.size())};
+    for (const MeshPiece& piece : geometry.pieces) {
+        meshes.push_back(piece.triangles);
+        triangle_counts.push_back(piece.triangle_count);
+    }
+    TwoLevelBvh tree = buildTwoLevelBvh(worldTriangles(geometry), meshes, geometry.placements);
+    bvh_seconds_ = tree.build_seconds;
+    bvh_dropped_ = tree.baked.dropped;
+    for (const Bvh& mesh : tree.meshes) bvh_dropped_ += mesh.dropped;
+    bounds_.extend(tree.top_bounds);
+    const JoinedBvh bvh = joinLevels(tree, triangle_counts);
+    if (!geometry.placements.empty()) {
+        baked_instances_ = static_cast<uint>(geometry.instances.size() - geometry.placements.size());
+        first_instance_position_ = bvh.first_instance_position;
+        instance_slack_ = tree.slack;
+        std::vector<InstanceTransformRecord> records;
+        for (const BvhInstance& placed : geometry.placements) records.push_back(transformRecord(placed));
+        instance_transforms_ = upload("instance_transforms", records);
+    }
+    std::vector<vec4> texels;
+    texels.reserve(std::size_t{kBvhTexelsPerTriangle} * bvh.ids.size());
+    for (std::size_t i = 0; i < bvh.ids.size(); ++i) {
+        const uint id = bvh.ids[i];
+        if (i >= bvh.first_instance_position) {
+            appendInstanceTexels(texels, geometry.placements[id]);
+            continue;
+        }
+        const auto corner = [&](std::size_t k) {
+            return geometry.vertices[geometry.indices[std::size_t{3} * id + k]].position;
+        };
+        appendTriangleTexels(texels, BvhTriangle{corner(0), corner(1), corner(2)}, nameOf(geometry, id));
+    }
+    if (!geometry.placements.empty()) {
+        first_instance_texel_ = static_cast<uint>(texels.size()) - bvh.first_instance_position;
+        for (std::size_t i = bvh.first_instance_position; i < bvh.ids.size(); ++i)
+            texels.emplace_back(bvh.roots[geometry.placements[bvh.ids[i]].mesh], bvh.ids[i], 0.0F, 0.0F);
+    }
+    bvh_ = GpuBvh(*device_, bvh.nodes, texels, bvh.max_stack, storage);
+    bytes_ += bvh_.bytes();
+}
+
+// See shaders/bound/scene_data.glsl.
+void GpuScene::viewRecords(bool storage) {
+    const std::array<std::tuple<const char*, const gpu::Buffer*, VkFormat>, 6> records{
+        {{"vertex_texels", &vertices_, VK_FORMAT_R32G32B32A32_UINT},
+         {"triangle_index_texels", &triangle_indices_, VK_FORMAT_R32_UINT},
+         {"instance_texels", &instances_, VK_FORMAT_R32G32B32A32_UINT},
+         {"material_texels", &materials_, VK_FORMAT_R32G32B32A32_UINT},
+         {"light_texels", &lights_, VK_FORMAT_R32G32B32A32_UINT},
+         {"light_alias_texels", &light_alias_, VK_FORMAT_R32G32B32A32_UINT}}};
+    records_in_storage_ =
+        storage || std::any_of(records.begin(), records.end(), [this](const auto& record) {
+            const auto& [name, buffer, format] = record;
+            return buffer->size() / gpu::texelBytes(format) > device_->limits().maxTexelBufferElements;
+        });
+    record_views_.reserve(records.size());
+    for (const auto& [name, buffer, format] : records) {
+        if (records_in_storage_ && buffer->size() > device_->limits().maxStorageBufferRange)
+            throw InputError(fmt::format(
+                "the scene's {} take {} bytes, and this device's buffers hold at most {} texels or {} bytes",
+                buffer->name(), buffer->size(), device_->limits().maxTexelBufferElements,
+                device_->limits().maxStorageBufferRange));
+        const gpu::Buffer& viewed = *buffer && !records_in_storage_ ? *buffer : none_;
+        record_views_.push_back({name, gpu::TexelView(*device_, viewed, format)});
+    }
 }
 
 void GpuScene::uploadMaterials(const Scene& scene, const Effects& effects) {
     std::vector<MaterialRecord> records;
     for (const Material& m : scene.materials) records.push_back(materialRecord(m));
     for (const MaterialRecord& r : records) slot_kinds_ |= slotKinds(r);
-    materials_ = upload("materials", records);
+    materials_ = upload("materials", records, kFetched);
     if (effects.has(kEffectTextures)) uploadTexels(scene);
 }
 
@@ -193,14 +299,16 @@ void GpuScene::uploadTexels(const Scene& scene) {
     srgb_table_ = upload("srgb_table", table);
 }
 
-void GpuScene::uploadLights(const Scene& scene, const Effects& effects, bool sample_surfaces_and_sky,
-                            std::vector<uint>& first_light) {
+void GpuScene::uploadLights(const Scene& scene, const Effects& effects, const InstanceOrder& order,
+                            bool sample_surfaces_and_sky, std::vector<uint>& first_light) {
     LightTable table = buildLightTable(scene, effects, sample_surfaces_and_sky);
+    for (LightRecord& light : table.lights)
+        if (light.kind == kLightTriangle) light.instance = order.device_instance[light.instance];
     first_light = std::move(table.first_light);
     light_count_ = static_cast<uint>(table.lights.size());
     if (light_count_ > 0) {
-        lights_ = upload("lights", table.lights);
-        light_alias_ = upload("light_alias", table.alias);
+        lights_ = upload("lights", table.lights, kFetched);
+        light_alias_ = upload("light_alias", table.alias, kFetched);
     }
     environment_light_ = table.environment_light;
     const bool present = effects.has(kEffectEnvironment) && scene.environment;
@@ -229,30 +337,25 @@ void GpuScene::uploadLights(const Scene& scene, const Effects& effects, bool sam
 
 std::vector<gpu::BoundResource> GpuScene::resources() const {
     const auto orNone = [this](const gpu::Buffer& b) { return b ? &b : &none_; };
-    const gpu::Buffer* nodes = bvh_in_storage_ ? &nodes_ : &none_;
+    const auto inStorage = [this](const gpu::Buffer& b) { return b && records_in_storage_ ? &b : &none_; };
     std::vector<gpu::BoundResource> list{
-        {"Vertices", &vertices_},
-        {"TriangleIndices", &triangle_indices_},
-        {"Instances", &instances_},
-        {"Materials", &materials_},
-        {"TriangleInstances", &triangle_instances_},
+        {"Vertices", inStorage(vertices_)},
+        {"TriangleIndices", inStorage(triangle_indices_)},
+        {"Instances", inStorage(instances_)},
+        {"Materials", inStorage(materials_)},
         {"Tangents", orNone(tangents_)},
         {"Colors", orNone(colors_)},
         {"ExtraUvs", orNone(extra_uvs_)},
         {"Textures", orNone(textures_)},
         {"SrgbTable", orNone(srgb_table_)},
-        {"Lights", orNone(lights_)},
-        {"LightAlias", orNone(light_alias_)},
+        {"InstanceTransforms", orNone(instance_transforms_)},
+        {"Lights", inStorage(lights_)},
+        {"LightAlias", inStorage(light_alias_)},
         {"EnvironmentAlias", orNone(environment_alias_)},
         {"environment_map", gpu::SampledImage{&environment_map_, &sampler_}},
-        {"bvh_nodes", &nodes_view_},
-        {"bvh_children", &children_view_},
-        {"bvh_triangles", &triangles_view_},
-        {"bvh_nodes_storage", nodes},
-        {"bvh_children_storage", nodes},
-        {"bvh_triangles_storage", bvh_in_storage_ ? &bvh_triangles_ : &none_},
-        {"bvh_triangle_ids", &triangle_ids_},
     };
+    bvh_.addTo(list);
+    for (const RecordView& record : record_views_) list.push_back({record.name, &record.view});
     for (const gpu::Buffer& page : texel_pages_) list.push_back({"texel_pages", &page});
     if (texel_pages_.empty()) list.push_back({"texel_pages", &none_});
     return list;
@@ -267,11 +370,16 @@ void GpuScene::describe(FrameRecord& frame) const {
 }
 
 gpu::SpecConstants GpuScene::constants() const {
-    return {{kConstantBvhInStorage, bvh_in_storage_ ? 1U : 0U},
-            {kConstantBvhStackSize, stack_size_},
-            {kConstantTexturePages, static_cast<uint>(texel_pages_.size())},
-            {kConstantTextureSlotKinds, slot_kinds_},
-            {kConstantWideTexels, wide_texels_ ? 1U : 0U}};
+    gpu::SpecConstants constants{{kConstantSceneInStorage, records_in_storage_ ? 1U : 0U},
+                                 {kConstantTexturePages, static_cast<uint>(texel_pages_.size())},
+                                 {kConstantTextureSlotKinds, slot_kinds_},
+                                 {kConstantWideTexels, wide_texels_ ? 1U : 0U},
+                                 {kConstantBakedInstances, baked_instances_},
+                                 {kConstantFirstInstancePosition, first_instance_position_},
+                                 {kConstantInstanceSlack, std::bit_cast<uint>(instance_slack_)},
+                                 {kConstantFirstInstanceTexel, first_instance_texel_}};
+    bvh_.addTo(constants);
+    return constants;
 }
 
 }  // namespace licht

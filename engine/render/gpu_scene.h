@@ -2,23 +2,26 @@
 #include <string>
 #include <vector>
 
-#include "licht/bvh/bvh.h"
 #include "licht/gpu/program.h"
 #include "licht/gpu/resource.h"
+#include "licht/render/gpu_bvh.h"
 #include "licht/scene/effects.h"
 #include "licht/scene/scene.h"
 #include "licht/shared/records.h"
 
 namespace licht {
 
-/// The scene on the device: world-space triangles, materials, texels, lights and the BVH. A buffer exists
-/// only where an effect calls for it; programs that name an absent one are bound to a few zero bytes and,
-/// being specialised, never read them.
+struct FlatGeometry;
+struct InstanceOrder;
+
+/// The scene on the device: triangles (in world space, or in an instanced mesh's own), materials, texels,
+/// lights and the BVH. A buffer exists only where an effect calls for it; programs that name an absent one
+/// are bound to a few zero bytes and, being specialised, never read them.
 class GpuScene {
 public:
     struct Options {
         bool sample_surfaces_and_sky = true;
-        bool storage_buffer_bvh = false;
+        bool storage_buffers = false;
     };
 
     /// Throws InputError, with the numbers, where the scene is larger than the device's buffers may be.
@@ -28,27 +31,34 @@ public:
     [[nodiscard]] std::vector<gpu::BoundResource> resources() const;
     /// What the scene says to every frame: counts, sizes, seeds are the caller's.
     void describe(FrameRecord& frame) const;
-    /// Constants beside the effects: how the BVH is fetched and how deep its stack is.
+    /// Constants beside the effects: how the BVH is fetched, how deep its stack is, where instances begin.
     [[nodiscard]] gpu::SpecConstants constants() const;
 
     struct Draw {
         uint first_vertex;
         uint vertex_count;
-        bool double_sided;
+        uint first_instance;
+        uint instance_count;
+        VkCullModeFlags cull;
     };
-    [[nodiscard]] const std::vector<Draw>& draws() const { return draws_; }  ///< one per instance, in order
+    /// One per baked instance, one per group of instances of a mesh.
+    [[nodiscard]] const std::vector<Draw>& draws() const { return draws_; }
+    /// Memory on the device for vertices, triangles, instances and the BVH.
+    [[nodiscard]] std::uint64_t geometryBytes() const { return geometry_bytes_; }
     [[nodiscard]] const Bounds& bounds() const { return bounds_; }
     [[nodiscard]] double bvhSeconds() const { return bvh_seconds_; }
     [[nodiscard]] std::uint32_t bvhDropped() const { return bvh_dropped_; }
 
 private:
-    void uploadGeometry(const Scene& scene, const Effects& effects, const std::vector<uint>& first_light,
-                        bool storage_buffer_bvh);
-    void uploadBvh(const std::vector<BvhTriangle>& triangles, bool storage);
+    void uploadGeometry(const Scene& scene, const Effects& effects, const InstanceOrder& order,
+                        const std::vector<uint>& first_light, bool storage_buffers);
+    void uploadBvh(const FlatGeometry& geometry, bool storage);
+    void addDraws(const FlatGeometry& geometry);
+    void viewRecords(bool storage);
     void uploadMaterials(const Scene& scene, const Effects& effects);
     void uploadTexels(const Scene& scene);
-    void uploadLights(const Scene& scene, const Effects& effects, bool sample_surfaces_and_sky,
-                      std::vector<uint>& first_light);
+    void uploadLights(const Scene& scene, const Effects& effects, const InstanceOrder& order,
+                      bool sample_surfaces_and_sky, std::vector<uint>& first_light);
     template <typename T>
     gpu::Buffer upload(const char* name, const std::vector<T>& values,
                        VkBufferUsageFlags usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
@@ -56,10 +66,15 @@ private:
     gpu::Device* device_;
     gpu::Buffer none_, vertices_, triangle_indices_, instances_, materials_, tangents_, colors_, extra_uvs_,
         textures_, srgb_table_;
-    gpu::Buffer triangle_instances_, triangle_ids_, nodes_, bvh_triangles_, lights_, light_alias_,
-        environment_alias_;
+    gpu::Buffer instance_transforms_, lights_, light_alias_, environment_alias_;
     std::vector<gpu::Buffer> texel_pages_;
-    gpu::TexelView nodes_view_, children_view_, triangles_view_;
+    GpuBvh bvh_;
+    struct RecordView {
+        const char* name;
+        gpu::TexelView view;
+    };
+    std::vector<RecordView> record_views_;
+    bool records_in_storage_ = false;
     gpu::Image environment_map_;
     gpu::Sampler sampler_;
     std::vector<Draw> draws_;
@@ -69,10 +84,14 @@ private:
     uint environment_light_ = kNoIndex;
     uint extra_uv_sets_ = 0;
     uint has_sky_ = 0;
-    uint stack_size_ = 1;
+    uint baked_instances_ = kNoIndex;
+    uint first_instance_position_ = kNoIndex;
+    uint first_instance_texel_ = 0;
+    float instance_slack_ = 0.0F;
+    std::uint64_t bytes_ = 0;
+    std::uint64_t geometry_bytes_ = 0;
     uint slot_kinds_ = 0;
     bool wide_texels_ = false;
-    bool bvh_in_storage_ = false;
     double bvh_seconds_ = 0.0;
     std::uint32_t bvh_dropped_ = 0;
 };

@@ -6,35 +6,35 @@ using gpu::Access;
 
 void recordGbuffer(gpu::Commands& commands, const gpu::Program& program, const gpu::Bindings& bindings,
                    const GpuScene& scene, const History& history, const SamplePush& push) {
-    commands.pass(
-        "gbuffer", {{&history.gbuffer, Access::color_target}, {&history.depth, Access::depth_target}},
-        [&](const gpu::Pass& pass) {
-            gpu::ColorTarget target{&history.gbuffer, {}};
-            target.clear.uint32[0] = kNoIndex;
-            pass.render(std::span(&target, 1), &history.depth, [&] {
-                pass.bind(program, bindings);
-                pass.push(program, std::as_bytes(std::span(&push, 1)));
-                // glTF: back faces of single-sided materials are not drawn. Rays meet both sides, so that
-                // visibility stays symmetric.
-                for (std::uint32_t instance = 0; instance < scene.draws().size(); ++instance) {
-                    const GpuScene::Draw& draw = scene.draws()[instance];
-                    vkCmdSetCullMode(pass.commandBuffer(),
-                                     draw.double_sided ? VK_CULL_MODE_NONE : VK_CULL_MODE_BACK_BIT);
-                    vkCmdDraw(pass.commandBuffer(), draw.vertex_count, 1, draw.first_vertex, instance);
-                }
-            });
-        });
+    commands.pass("gbuffer",
+                  {{&history.gbuffer, Access::color_target}, {&history.depth, Access::depth_target}},
+                  [&](const gpu::Pass& pass) {
+                      gpu::ColorTarget target{&history.gbuffer, {}};
+                      target.clear.uint32[0] = kNoIndex;
+                      pass.render(std::span(&target, 1), &history.depth, [&] {
+                          pass.bind(program, bindings);
+                          pass.push(program, std::as_bytes(std::span(&push, 1)));
+                          for (const GpuScene::Draw& draw : scene.draws()) {
+                              vkCmdSetCullMode(pass.commandBuffer(), draw.cull);
+                              vkCmdDraw(pass.commandBuffer(), draw.vertex_count, draw.instance_count,
+                                        draw.first_vertex, draw.first_instance);
+                          }
+                      });
+                  });
 }
 
 void recordPath(gpu::Commands& commands, const gpu::Program& program, const gpu::Bindings& bindings,
-                const History& history, const gpu::Buffer& counters, const SamplePush& push) {
+                const History& history, const gpu::Buffer& counters, const SamplePush& push,
+                std::uint32_t paths_per_thread) {
     const VkExtent2D extent = history.gbuffer.extent();
-    commands.pass(
-        "path",
-        {{&history.gbuffer, Access::compute_read},
-         {&history.radiance, Access::compute_write},
-         {&counters, Access::compute_read_write}},
-        [&](const gpu::Pass& pass) { pass.dispatch(program, bindings, push, extent.width, push.row_count); });
+    commands.pass("path",
+                  {{&history.gbuffer, Access::compute_read},
+                   {&history.radiance, Access::compute_write},
+                   {&counters, Access::compute_read_write}},
+                  [&](const gpu::Pass& pass) {
+                      pass.dispatch(program, bindings, push, extent.width,
+                                    (push.row_count + paths_per_thread - 1) / paths_per_thread);
+                  });
 }
 
 void recordAccumulate(gpu::Commands& commands, const gpu::Program& program, const gpu::Bindings& bindings,

@@ -13,7 +13,8 @@ void recordGbuffer(gpu::Commands& commands, const gpu::Program& program, const g
 
 /// Rows [push.first_row, + push.row_count): gbuffer -> radiance, and counts.
 void recordPath(gpu::Commands& commands, const gpu::Program& program, const gpu::Bindings& bindings,
-                const History& history, const gpu::Buffer& counters, const SamplePush& push);
+                const History& history, const gpu::Buffer& counters, const SamplePush& push,
+                std::uint32_t paths_per_thread);
 
 /// radiance -> mean and variance.
 void recordAccumulate(gpu::Commands& commands, const gpu::Program& program, const gpu::Bindings& bindings,

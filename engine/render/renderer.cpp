@@ -30,11 +30,34 @@ constexpr double kSliceSeconds = 0.1;
 // Means over this many samples are as good as exact for the layers, and their plain fp32 sums cannot stall.
 constexpr std::uint32_t kMostLayerSamples = 4096;
 
-gpu::SpecConstants constantsOf(const Effects& effects, const GpuScene& scene,
-                               const RenderSettings& settings) {
+Effects effectsOf(const Scene& scene, const RenderSettings& settings) {
+    Effects effects = settings.all_effects ? allEffects() : detectEffects(scene);
+    if (settings.flatten_instances) {
+        effects.on[kEffectInstances] = false;
+        effects.evidence[kEffectInstances].clear();
+    }
+    return effects;
+}
+
+// How many paths a thread follows, one after the other. On a CPU lanes run in lockstep and there are few of
+// them: the next path fills a lane whose path has ended (measured on lavapipe: 1.2 times the samples where
+// paths are of different lengths). A GPU wants threads. Some drivers end a thread's loops after 65,535
+// rounds; a vertex of a path takes about 200, and half of the rounds are kept for those that take more.
+std::uint32_t pathsPerThread(const gpu::Device& device, const RenderSettings& settings) {
+    constexpr std::uint32_t kMostPaths = 16;
+    constexpr std::uint32_t kRounds = 32'768;
+    constexpr std::uint32_t kRoundsPerVertex = 200;
+    if (settings.paths_per_thread > 0) return settings.paths_per_thread;
+    if (device.report().type != "cpu") return 1;
+    return std::clamp(kRounds / kRoundsPerVertex / (settings.bounces + 1), 1U, kMostPaths);
+}
+
+gpu::SpecConstants constantsOf(const Effects& effects, const GpuScene& scene, const RenderSettings& settings,
+                               std::uint32_t paths_per_thread) {
     gpu::SpecConstants constants = scene.constants();
     for (uint effect = 0; effect < kEffectCount; ++effect) constants[effect] = effects.has(effect) ? 1U : 0U;
     constants[kConstantDirectMis] = settings.direct == DirectLight::mis ? 1U : 0U;
+    constants[kConstantPathsPerThread] = paths_per_thread;
     if (settings.all_effects) {
         constants[kConstantTexturePages] = kTexturePages;
         constants[kConstantTextureSlotKinds] = 0xffffffffU;
@@ -62,17 +85,20 @@ struct Renderer::State {
     State(gpu::Device& d, const Scene& scene, const Camera& c, const RenderSettings& s)
         : device(d),
           settings(s),
+          paths_per_thread(pathsPerThread(d, s)),
           camera(c),
-          effects(s.all_effects ? allEffects() : detectEffects(scene)),
+          effects(effectsOf(scene, s)),
           upload_start(Clock::now()),
-          gpu_scene(d, scene, effects, {s.direct == DirectLight::mis, s.storage_buffer_bvh}),
+          gpu_scene(d, scene, effects, {s.direct == DirectLight::mis, s.storage_buffers}),
           frame_buffer(d, "frame", sizeof(FrameRecord), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
                        gpu::Memory::host_write),
           slots{Slot(d, "counters 0"), Slot(d, "counters 1")} {
         statistics.bvh_seconds = gpu_scene.bvhSeconds();
+        statistics.geometry_bytes = gpu_scene.geometryBytes();
         statistics.upload_seconds = secondsSince(upload_start) - statistics.bvh_seconds;
         const Clock::time_point start = Clock::now();
-        programs.emplace(device, constantsOf(effects, gpu_scene, settings), settings.aovs.any());
+        programs.emplace(device, constantsOf(effects, gpu_scene, settings, paths_per_thread),
+                         settings.aovs.any());
         resize(settings.size);
         runEveryProgramOnce();
         statistics.pipeline_seconds = secondsSince(start);
@@ -88,6 +114,7 @@ struct Renderer::State {
 
     gpu::Device& device;
     RenderSettings settings;
+    std::uint32_t paths_per_thread;
     Camera camera;
     Effects effects;
     Clock::time_point upload_start;
@@ -110,7 +137,7 @@ void Renderer::State::runEveryProgramOnce() {
     gpu::Commands commands(device);
     commands.begin();
     recordGbuffer(commands, programs->gbuffer, gbuffer_bindings, gpu_scene, *history, push);
-    recordPath(commands, programs->path, slots[0].path, *history, slots[0].counters, push);
+    recordPath(commands, programs->path, slots[0].path, *history, slots[0].counters, push, paths_per_thread);
     recordAccumulate(commands, programs->accumulate, accumulate_bindings, *history, push);
     if (settings.aovs.any()) recordLayers(commands, programs->layers, layer_bindings, *history, push);
     recordTonemap(commands, programs->tonemap, tonemap_bindings, *history, TonemapPush{});
@@ -211,7 +238,8 @@ void Renderer::renderSample() {
         if (push.first_row == 0)
             recordGbuffer(slot.commands, s.programs->gbuffer, s.gbuffer_bindings, s.gpu_scene, *s.history,
                           push);
-        recordPath(slot.commands, s.programs->path, slot.path, *s.history, slot.counters, push);
+        recordPath(slot.commands, s.programs->path, slot.path, *s.history, slot.counters, push,
+                   s.paths_per_thread);
         if (push.first_row + push.row_count == s.settings.size.y) {
             recordAccumulate(slot.commands, s.programs->accumulate, s.accumulate_bindings, *s.history, push);
             if (s.settings.aovs.any() && push.count_before < kMostLayerSamples) {

@@ -36,8 +36,11 @@ struct RenderSettings {
     AovSet aovs;
     bool all_effects =
         false;  ///< compile everything, called for or not (the reference for the specialised programs)
-    bool storage_buffer_bvh =
-        false;  ///< fetch the BVH from storage buffers even where texel buffers are large enough
+    bool flatten_instances = false;  ///< bake every instance (the reference for two levels)
+    bool storage_buffers = false;    ///< fetch BVH and records from storage buffers even where texel buffers
+                                     ///< are large enough
+    std::uint32_t paths_per_thread =
+        0;  ///< that a thread follows one after the other; 0: as suits the device
 };
 
 /// What was accumulated so far, on the host. Planes are width * height, from the top left.
@@ -66,6 +69,7 @@ struct RenderStatistics {
     double bvh_seconds = 0.0;
     double upload_seconds = 0.0;
     double pipeline_seconds = 0.0;
+    std::uint64_t geometry_bytes = 0;  ///< on the device: vertices, triangles, instances and the BVH
     std::map<std::string, gpu::PassTime> passes;
     std::uint64_t primary_rays = 0;  ///< pixels rasterised times samples
     std::uint64_t bounce_rays = 0;

@@ -14,7 +14,9 @@ Hit gbufferHit(ivec2 pixel) {
 
 vec3 hitPosition(Hit hit) {
     uvec3 v = triangleVertices(hit.instance, hit.primitive);
-    return (1.0 - hit.b1 - hit.b2) * vertices[v.x].position + hit.b1 * vertices[v.y].position + hit.b2 * vertices[v.z].position;
+    Placement at = placementOf(hit.instance);
+    return (1.0 - hit.b1 - hit.b2) * worldPoint(at, vertexAt(v.x).position) + hit.b1 * worldPoint(at, vertexAt(v.y).position) +
+           hit.b2 * worldPoint(at, vertexAt(v.z).position);
 }
 
 // Unit direction from what the pixel's sample saw to the camera.

@@ -32,62 +32,85 @@ vec3 skyRadiance(vec3 direction) { return kEnvironment ? environmentRadiance(dir
 // Weight of what a scattered ray met, against the light sampling that could have found it too. scatter_pdf: solid angle.
 float weightOfSky(float scatter_pdf, vec3 direction) {
     if (!kDirectMis || frame.environment_light == kNoIndex) return 1.0;
-    return misWeight(scatter_pdf, lights[frame.environment_light].pmf * pdfEnvironment(direction));
+    return misWeight(scatter_pdf, lightAt(frame.environment_light).pmf * pdfEnvironment(direction));
 }
 
 float weightOfSurface(float scatter_pdf, Surface s, vec3 from, vec3 direction) {
-    if (!kDirectMis || !kLightTriangles || s.light == kNoIndex || lights[s.light].pmf <= 0.0) return 1.0;
+    if (!kDirectMis || !kLightTriangles || s.light == kNoIndex || lightAt(s.light).pmf <= 0.0) return 1.0;
     vec3 d = s.position - from;
     return misWeight(scatter_pdf, pdfTriangleLight(s, dot(d, d), direction));
 }
 
-// Radiance along wo (unit, world, away from the scene) of a path whose first vertex is `hit`.
+// A path on its way.
+struct Path {
+    Hit hit;             // the next vertex; kNoIndex: it has left the scene
+    vec3 wo;             // unit, world, from there to the vertex before
+    vec3 radiance;       // found so far
+    vec3 throughput;
+    vec3 from;           // the vertex before
+    float scatter_pdf;   // of the direction that led to `hit`, solid angle
+    uint bounce;         // scattered so often
+    bool alive;
+};
+
+// wo: unit, world, away from the scene.
+Path beginPath(Hit hit, vec3 wo) { return Path(hit, wo, vec3(0.0), vec3(1.0), vec3(0.0), 0.0, 0u, true); }
+
+// What a path that left the scene finds there. Seen directly the sky counts whole.
+void endInSky(inout Path p) {
+    if (kEnvironment || p.bounce == 0u) p.radiance += p.throughput * (p.bounce == 0u ? 1.0 : weightOfSky(p.scatter_pdf, -p.wo)) * skyRadiance(-p.wo);
+    p.alive = false;
+}
+
+// One vertex of the path: what is emitted there, what arrives there from a light, and where the path goes on.
+void extendPath(inout Path p, inout PathCounts counts) {
+    // What the surface emits: T^bounce Le. Seen directly it counts whole.
+    Surface s = surfaceAt(p.hit, p.wo);
+    if (kEmission || kUnlit) p.radiance += p.throughput * s.emission * (p.bounce == 0u ? 1.0 : weightOfSurface(p.scatter_pdf, s, p.from, -p.wo));
+    p.alive = p.bounce < frame.bounces;
+    if (!p.alive) return;
+
+    // Sample a light.
+    uint dimension = kDimensionBounce + kDimensionsPerBounce * p.bounce;
+    vec3 wo_local = localFromWorld(s.frame, p.wo);
+    if (kLightTriangles || kPunctualLights || kEnvironment) p.radiance += p.throughput * directLight(s, wo_local, dimension, counts);
+
+    // Sample the BSDF.
+    vec4 u = sample4(g_address, dimension + kDimensionScatter);
+    BsdfSample scattered = bsdfSample(s.bsdf, wo_local, u.x, u.yz);
+    vec3 wi = worldFromLocal(s.frame, scattered.wi);
+    p.throughput *= scattered.weight;
+    p.alive = scattered.valid && dot(wi, s.face_normal) > 0.0 && largest(p.throughput) > 0.0;  // below the true surface: absorbed
+    if (!p.alive) return;
+
+    // Roulette: end a path that carries little, by a chance that keeps the mean.
+    if (p.bounce >= frame.roulette_start) {
+        float survival = min(largest(p.throughput), 1.0);
+        p.alive = u.w < survival;
+        if (!p.alive) return;
+        p.throughput /= survival;
+    }
+
+    // Follow the ray.
+    ++counts.bounce_rays;
+    p.hit = traceNearest(offsetOrigin(s, wi), wi);
+    p.wo = -wi;
+    p.from = s.position;
+    p.scatter_pdf = scattered.pdf;
+    ++p.bounce;
+}
+
+// Radiance along wo of a path whose first vertex is `hit`.
 vec3 pathRadiance(Hit hit, vec3 wo, inout PathCounts counts) {
-    if (hit.instance == kNoIndex) return skyRadiance(-wo);
-    vec3 radiance = vec3(0.0);
-    vec3 throughput = vec3(1.0);
-    vec3 from = vec3(0.0);      // the vertex before
-    float scatter_pdf = 0.0;    // of the direction that led here
-
-    for (uint bounce = 0u;; ++bounce) {
-        // What the surface emits: T^bounce Le. Seen directly it counts whole.
-        Surface s = surfaceAt(hit, wo);
-        if (kEmission || kUnlit) radiance += throughput * s.emission * (bounce == 0u ? 1.0 : weightOfSurface(scatter_pdf, s, from, -wo));
-        if (bounce >= frame.bounces) break;
-
-        // Sample a light.
-        uint dimension = kDimensionBounce + kDimensionsPerBounce * bounce;
-        vec3 wo_local = localFromWorld(s.frame, wo);
-        if (kLightTriangles || kPunctualLights || kEnvironment) radiance += throughput * directLight(s, wo_local, dimension, counts);
-
-        // Sample the BSDF.
-        vec4 u = sample4(g_address, dimension + kDimensionScatter);
-        BsdfSample scattered = bsdfSample(s.bsdf, wo_local, u.x, u.yz);
-        if (!scattered.valid) break;
-        vec3 wi = worldFromLocal(s.frame, scattered.wi);
-        if (dot(wi, s.face_normal) <= 0.0) break;  // below the true surface: absorbed
-        throughput *= scattered.weight;
-        if (largest(throughput) <= 0.0) break;
-
-        // Roulette: end a path that carries little, by a chance that keeps the mean.
-        if (bounce >= frame.roulette_start) {
-            float survival = min(largest(throughput), 1.0);
-            if (u.w >= survival) break;
-            throughput /= survival;
-        }
-
-        // Follow the ray.
-        ++counts.bounce_rays;
-        hit = traceNearest(offsetOrigin(s, wi), wi);
-        wo = -wi;
-        from = s.position;
-        scatter_pdf = scattered.pdf;
-        if (hit.instance == kNoIndex) {
-            if (kEnvironment) radiance += throughput * weightOfSky(scatter_pdf, wi) * skyRadiance(wi);
-            break;
+    Path p = beginPath(hit, wo);
+    while (p.alive) {
+        if (p.hit.instance == kNoIndex) {
+            endInSky(p);
+        } else {
+            extendPath(p, counts);
         }
     }
-    return radiance;
+    return p.radiance;
 }
 
 #endif

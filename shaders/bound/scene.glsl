@@ -2,6 +2,8 @@
 #ifndef LICHT_BOUND_SCENE_GLSL
 #define LICHT_BOUND_SCENE_GLSL
 
+#include "bound/instances.glsl"
+#include "bound/scene_data.glsl"
 #include "shared/effects.h"
 #include "shared/records.h"
 
@@ -20,10 +22,6 @@ layout(constant_id = 10) const bool kUnlit = true;
 // A storage buffer, though a uniform one would hold it: Mesa 22.3's lavapipe writes the values of uniforms that decide branches and loops into the
 // program and compiles it again at every submission (measured: 10 s a sample for a textured scene).
 layout(std430, binding = 0) readonly buffer FrameBlock { FrameRecord frame; };
-layout(std430, binding = 1) readonly buffer Vertices { VertexRecord vertices[]; };
-layout(std430, binding = 2) readonly buffer TriangleIndices { uint triangle_indices[]; };
-layout(std430, binding = 3) readonly buffer Instances { InstanceRecord instances[]; };
-layout(std430, binding = 4) readonly buffer Materials { MaterialRecord materials[]; };
 layout(std430, binding = 11) readonly buffer Tangents { vec4 tangents[]; };
 layout(std430, binding = 12) readonly buffer Colors { vec4 colors[]; };
 layout(std430, binding = 13) readonly buffer ExtraUvs { vec2 extra_uvs[]; };
@@ -39,8 +37,8 @@ struct Hit {
 const Hit kNoHit = Hit(kNoIndex, 0u, 0.0, 0.0);
 
 uvec3 triangleVertices(uint instance, uint primitive) {
-    uint first = 3u * (instances[instance].first_triangle + primitive);
-    return uvec3(triangle_indices[first], triangle_indices[first + 1u], triangle_indices[first + 2u]);
+    uint first = 3u * (instanceAt(instance).first_triangle + primitive);
+    return uvec3(triangleIndexAt(first), triangleIndexAt(first + 1u), triangleIndexAt(first + 2u));
 }
 
 vec2 uvAt(uvec3 v, vec3 weights, uint set) {
@@ -49,8 +47,8 @@ vec2 uvAt(uvec3 v, vec3 weights, uint set) {
         uvec3 at = v * frame.extra_uv_sets + (set - 1u);
         return weights.x * extra_uvs[at.x] + weights.y * extra_uvs[at.y] + weights.z * extra_uvs[at.z];
     }
-    return weights.x * vec2(vertices[v.x].u, vertices[v.x].v) + weights.y * vec2(vertices[v.y].u, vertices[v.y].v) +
-           weights.z * vec2(vertices[v.z].u, vertices[v.z].v);
+    return weights.x * vec2(vertexAt(v.x).u, vertexAt(v.x).v) + weights.y * vec2(vertexAt(v.y).u, vertexAt(v.y).v) +
+           weights.z * vec2(vertexAt(v.z).u, vertexAt(v.z).v);
 }
 
 vec4 vertexColorAt(uvec3 v, vec3 weights) {

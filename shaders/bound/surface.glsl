@@ -30,20 +30,22 @@ vec4 baseColorAt(MaterialRecord m, uvec3 v, vec3 weights) {
 
 // Coverage: a masked or blended surface is there or not, for this ray, as one number decides.
 bool covers(uint instance, uint primitive, float b1, float b2, float u) {
-    MaterialRecord m = materials[instances[instance].material];
+    MaterialRecord m = materialAt(instanceAt(instance).material);
     if ((m.flags & (kMaterialAlphaMask | kMaterialAlphaBlend)) == 0u) return true;
     uvec3 v = triangleVertices(instance, primitive);
     float alpha = baseColorAt(m, v, vec3(1.0 - b1 - b2, b1, b2)).a;
     return (m.flags & kMaterialAlphaMask) != 0u ? alpha >= m.alpha_cutoff : u < alpha;
 }
 
-float coverageNumber(SampleAddress address, uint rays_before, uint triangle) {
-    return sample4(SampleAddress(address.pixel, address.index, address.seed ^ (triangle * 0x9e3779b9u)), kDimensionAlpha + rays_before).x;
+float coverageNumber(SampleAddress address, uint rays_before, uint instance, uint triangle) {
+    uint key = triangle * 0x9e3779b9u;
+    if (kInstances) key ^= placementKey(instance);
+    return sample4(SampleAddress(address.pixel, address.index, address.seed ^ key), kDimensionAlpha + rays_before).x;
 }
 
 // glTF's normal map: tangent space of the interpolated normal and the vertices' tangents.
-vec3 mappedNormal(MaterialRecord m, uvec3 v, vec3 weights, vec3 n) {
-    vec4 t = weights.x * tangents[v.x] + weights.y * tangents[v.y] + weights.z * tangents[v.z];
+vec3 mappedNormal(MaterialRecord m, Placement at, uvec3 v, vec3 weights, vec3 n) {
+    vec4 t = weights.x * worldTangent(at, tangents[v.x]) + weights.y * worldTangent(at, tangents[v.y]) + weights.z * worldTangent(at, tangents[v.z]);
     vec3 tangent = t.xyz - dot(t.xyz, n) * n;
     float length2 = dot(tangent, tangent);
     if (!(length2 > 0.0)) return n;
@@ -94,14 +96,26 @@ struct Face {
     float error_bound;  // how far from the true plane position and traversal may see each other, metres
 };
 
-Face faceOf(vec3 p0, vec3 p1, vec3 p2) {
-    vec3 e1 = p1 - p0, e2 = p2 - p0;
+// What going to an instance's object space and back adds to the error of positions: seen from the world along the normal n, the ray's origin is off by
+// 5 u |n| |M| |M^-1| |P - pivot|, the vertex by 4 u |n| |M| |p|, and the object's own test by 20 u |n| |M| |p| (u = 2^-24; the terms stand with
+// kInstanceSlack). With ||M^-1|| |P - pivot| <= condition * |p| in the largest component, kPositionUnits = 32 u of this holds them all.
+float instanceError(Placement at, vec3 normal, vec3 p0, vec3 p1, vec3 p2) {
+    vec3 row_sums = vec3(dot(abs(at.x), vec3(1.0)), dot(abs(at.y), vec3(1.0)), dot(abs(at.z), vec3(1.0)));
+    return at.condition * dot(abs(normal), row_sums) * largest(max(abs(p0), max(abs(p1), abs(p2))));
+}
+
+// Of vertices in object space. Edges are taken there, so that far from the world's origin no bits of the normal are lost.
+Face faceOf(Placement at, vec3 p0, vec3 p1, vec3 p2) {
+    vec3 e1 = worldVector(at, p1 - p0), e2 = worldVector(at, p2 - p0);
     float scale = largest(max(abs(e1), abs(e2)));  // so that the product of tiny edges does not underflow
     vec3 area2 = cross(e1 / scale, e2 / scale);
     float length_area2 = length(area2);
     vec3 normal = area2 / length_area2;
-    float coordinates = dot(abs(normal), max(abs(p0), max(abs(p1), abs(p2))));
-    return Face(normal, 0.5 * length_area2 * scale * scale, kPositionUnits * (coordinates + scale));
+    if (kInstances && at.mirrored) normal = -normal;
+    float coordinates = dot(abs(normal), max(abs(worldPoint(at, p0)), max(abs(worldPoint(at, p1)), abs(worldPoint(at, p2)))));
+    float error = coordinates + scale;
+    if (kInstances) error += instanceError(at, normal, p0, p1, p2);
+    return Face(normal, 0.5 * length_area2 * scale * scale, kPositionUnits * error);
 }
 
 // Emitted towards wo, cd/m^2. Single-sided surfaces emit from their front.
@@ -112,25 +126,27 @@ vec3 emissionOf(MaterialRecord m, uvec3 v, vec3 weights, bool front) {
 
 // wo: unit, world, towards where the path came from.
 Surface surfaceAt(Hit hit, vec3 wo) {
-    InstanceRecord instance = instances[hit.instance];
-    MaterialRecord m = materials[instance.material];
+    InstanceRecord instance = instanceAt(hit.instance);
+    MaterialRecord m = materialAt(instance.material);
     uvec3 v = triangleVertices(hit.instance, hit.primitive);
     vec3 weights = vec3(1.0 - hit.b1 - hit.b2, hit.b1, hit.b2);
-    vec3 p0 = vertices[v.x].position, p1 = vertices[v.y].position, p2 = vertices[v.z].position;
+    vec3 p0 = vertexAt(v.x).position, p1 = vertexAt(v.y).position, p2 = vertexAt(v.z).position;
+    Placement at = placementOf(hit.instance);
 
     Surface s;
-    s.position = weights.x * p0 + weights.y * p1 + weights.z * p2;
-    Face face = faceOf(p0, p1, p2);
+    s.position = weights.x * worldPoint(at, p0) + weights.y * worldPoint(at, p1) + weights.z * worldPoint(at, p2);
+    Face face = faceOf(at, p0, p1, p2);
     bool front = dot(face.normal, wo) >= 0.0;
     s.face_normal = front ? face.normal : -face.normal;
     s.area = face.area;
     s.error_bound = face.error_bound;
 
     // The shading normal, on the same side; bent back into view where interpolation or a map turns it away from wo.
-    vec3 n = weights.x * vertices[v.x].normal + weights.y * vertices[v.y].normal + weights.z * vertices[v.z].normal;
+    vec3 n = weights.x * worldNormal(at, vertexAt(v.x).normal) + weights.y * worldNormal(at, vertexAt(v.y).normal) +
+             weights.z * worldNormal(at, vertexAt(v.z).normal);
     float n2 = dot(n, n);
     n = n2 > 0.0 ? n * inversesqrt(n2) : face.normal;
-    if (kNormalMaps && (instance.flags & kInstanceTangents) != 0u && m.normal_slot.texture != kNoIndex) n = mappedNormal(m, v, weights, n);
+    if (kNormalMaps && (instance.flags & kInstanceTangents) != 0u && m.normal_slot.texture != kNoIndex) n = mappedNormal(m, at, v, weights, n);
     n = front ? n : -n;
     const float kLowestCosine = 1e-3;  // keeps wo inside the hemisphere by more than the rounding of the frame
     float away = dot(n, wo);

@@ -4,43 +4,51 @@
 
 #include "bound/surface.glsl"
 
-layout(std430, binding = 15) readonly buffer TriangleInstances { uint triangle_instances[]; };
-
 // Whose rays are traced, and how many were before: what the coverage of partly transparent surfaces is decided by.
 SampleAddress g_address;
 uint g_rays_before;
 
-// Where a ray goes on behind a surface that is not there for it: hits are ordered by (t, triangle), and only later ones count.
+// Where a ray goes on behind a surface that is not there for it: hits are ordered by (t, instance, triangle), and only later ones count.
 float g_after_t = -1.0;
+uint g_after_instance = 0u;
 uint g_after_triangle = 0u;
 
+// The including shader defines what else happens to a ray that is about to be traced: nothing, or a note of it.
+void onRay(vec3 origin, vec3 direction, float t_max, bool any_hit);
+
+uint bvhInstance();
 uint bvhTriangleOrder(uint position);
 
-bool acceptHit(uint position, float t) { return !kAlpha || t > g_after_t || bvhTriangleOrder(position) > g_after_triangle; }
+bool acceptHit(uint position, float t) {
+    bool later = kInstances && bvhInstance() != g_after_instance ? bvhInstance() + 1u > g_after_instance + 1u : bvhTriangleOrder(position) > g_after_triangle;
+    return !kAlpha || t > g_after_t || later;
+}
 
 #include "bound/traversal.glsl"
 
 Hit hitOf(TraceHit t) {
     if (t.position == kNoIndex) return kNoHit;
-    uint triangle = bvhTriangleOrder(t.position);
-    uint instance = triangle_instances[triangle];
-    return Hit(instance, triangle - instances[instance].first_triangle, t.b1, t.b2);
+    uint texel = t.position * kBvhTexelsPerTriangle;
+    uint instance = kInstances && t.instance != kNoIndex ? kBakedInstances + t.instance : uint(bvhTriangleTexel(texel + 1u).w);
+    return Hit(instance, uint(bvhTriangleTexel(texel + 2u).w), t.b1, t.b2);
 }
 
 // Nearest surface, or with any_hit some surface, that is there for this ray. Coverage is asked once per surface and not inside the traversal,
 // because drivers without branches would filter textures in every step of it.
 Hit trace(vec3 origin, vec3 direction, float t_max, bool any_hit) {
+    onRay(origin, direction, t_max, any_hit);
     g_after_t = -1.0;
     float t_min = 0.0;
     Hit hit;
     while (true) {
         TraceHit found = traceRay(origin, direction, t_min, t_max, any_hit && !kAlpha);
         hit = hitOf(found);
-        if (!kAlpha || hit.instance == kNoIndex || (instances[hit.instance].flags & kInstanceAlpha) == 0u) break;
-        uint triangle = instances[hit.instance].first_triangle + hit.primitive;
-        if (covers(hit.instance, hit.primitive, hit.b1, hit.b2, coverageNumber(g_address, g_rays_before, triangle))) break;
+        if (!kAlpha || hit.instance == kNoIndex || (instanceAt(hit.instance).flags & kInstanceAlpha) == 0u) break;
+        uint triangle = instanceAt(hit.instance).first_triangle + hit.primitive;
+        if (covers(hit.instance, hit.primitive, hit.b1, hit.b2, coverageNumber(g_address, g_rays_before, hit.instance, triangle))) break;
         t_min = found.t;
         g_after_t = found.t;
+        g_after_instance = found.instance;
         g_after_triangle = triangle;
     }
     ++g_rays_before;

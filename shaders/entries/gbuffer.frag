@@ -14,10 +14,10 @@ void main() {
     vec2 b = max(barycentrics, vec2(0.0));
     float sum = b.x + b.y;
     if (sum > 1.0) b /= sum;
-    if (kAlpha && (instances[instance_primitive.x].flags & kInstanceAlpha) != 0u) {
+    if (kAlpha && (instanceAt(instance_primitive.x).flags & kInstanceAlpha) != 0u) {
         SampleAddress address = SampleAddress(uvec2(gl_FragCoord.xy), push.sample_index, frame.seed);
-        uint triangle = instances[instance_primitive.x].first_triangle + instance_primitive.y;
-        if (!covers(instance_primitive.x, instance_primitive.y, b.x, b.y, coverageNumber(address, 0u, triangle))) discard;
+        uint triangle = instanceAt(instance_primitive.x).first_triangle + instance_primitive.y;
+        if (!covers(instance_primitive.x, instance_primitive.y, b.x, b.y, coverageNumber(address, 0u, instance_primitive.x, triangle))) discard;
     }
     hit_record = uvec4(instance_primitive, floatBitsToUint(b));
 }

@@ -14,8 +14,8 @@ void main() {
     uint triangle = uint(gl_VertexIndex) / 3u;
     uint corner = uint(gl_VertexIndex) % 3u;
     uint instance = uint(gl_InstanceIndex);
-    vec3 position = vertices[triangle_indices[gl_VertexIndex]].position;
+    vec3 position = worldPoint(placementOf(instance), vertexAt(triangleIndexAt(gl_VertexIndex)).position);
     barycentrics = vec2(corner == 1u ? 1.0 : 0.0, corner == 2u ? 1.0 : 0.0);
-    instance_primitive = uvec2(instance, triangle - instances[instance].first_triangle);
+    instance_primitive = uvec2(instance, triangle - instanceAt(instance).first_triangle);
     gl_Position = clipFromRelative(frame.view, position - frame.view.eye, cameraJitter(push.sample_index, frame.seed));
 }

@@ -5,6 +5,7 @@
 #include "bound/path.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
+layout(constant_id = 72) const uint kPathsPerThread = 1u;  // kConstantPathsPerThread
 layout(push_constant) uniform Push { SamplePush push; };
 layout(rgba32f, binding = 21) uniform writeonly image2D radiance_image;
 layout(std430, binding = 16) buffer Counters { CounterRecord counters; };
@@ -12,7 +13,20 @@ layout(std430, binding = 16) buffer Counters { CounterRecord counters; };
 shared uint s_bounce_rays;
 shared uint s_shadow_rays;
 
+void onRay(vec3 origin, vec3 direction, float t_max, bool any_hit) {}
+
 bool finite(vec3 c) { return all(lessThan(floatBitsToUint(c) & 0x7f800000u, uvec3(0x7f800000u))); }
+
+// A sample that is no number counts as black and is reported, never hidden.
+void storePath(uvec2 pixel, vec3 radiance, bool covered) {
+    if (!finite(radiance)) {
+        radiance = vec3(0.0);
+        atomicAdd(counters.nonfinite_samples, 1u);
+    }
+    if (bvh_walk_cut) atomicAdd(counters.cut_walks, 1u);
+    bvh_walk_cut = false;
+    imageStore(radiance_image, ivec2(pixel), vec4(radiance, covered ? 1.0 : 0.0));
+}
 
 void main() {
     if (gl_LocalInvocationIndex == 0u) {
@@ -21,20 +35,31 @@ void main() {
     }
     barrier();
     PathCounts counts = PathCounts(0u, 0u);
-    uvec2 pixel = gl_GlobalInvocationID.xy + uvec2(0u, push.first_row);
-    if (pixel.x < frame.view.size.x && gl_GlobalInvocationID.y < push.row_count && pixel.y < frame.view.size.y) {
-        g_address = SampleAddress(pixel, push.sample_index, frame.seed);
-        g_rays_before = 1u;  // the rasteriser's was the first
-        Hit hit = gbufferHit(ivec2(pixel));
-        vec3 radiance = pathRadiance(hit, gbufferWo(hit, ivec2(pixel), push.sample_index), counts);
-        // A sample that is no number counts as black and is reported, never hidden.
-        if (!finite(radiance)) {
-            radiance = vec3(0.0);
-            atomicAdd(counters.nonfinite_samples, 1u);
+    // A thread follows a column of paths, the next one as soon as one ends: drivers that run lanes in lockstep would otherwise idle wherever the
+    // paths of a group are of different lengths.
+    uvec2 pixel = uvec2(gl_GlobalInvocationID.x, push.first_row + gl_WorkGroupID.y * gl_WorkGroupSize.y * kPathsPerThread + gl_LocalInvocationID.y);
+    uint rows_end = pixel.x < frame.view.size.x ? min(push.first_row + push.row_count, frame.view.size.y) : 0u;
+    uint left = kPathsPerThread;
+    bool covered = false;
+    Path p = beginPath(kNoHit, vec3(0.0));
+    bool begun = false;
+    while (true) {
+        if (begun && p.hit.instance == kNoIndex && p.alive) endInSky(p);
+        if (!begun || !p.alive) {
+            if (begun) {
+                storePath(pixel, p.radiance, covered);
+                pixel.y += gl_WorkGroupSize.y;
+            }
+            if (left == 0u || pixel.y >= rows_end) break;
+            --left;
+            begun = true;
+            g_address = SampleAddress(pixel, push.sample_index, frame.seed);
+            g_rays_before = 1u;  // the rasteriser's was the first
+            Hit hit = gbufferHit(ivec2(pixel));
+            p = beginPath(hit, gbufferWo(hit, ivec2(pixel), push.sample_index));
+            covered = hit.instance != kNoIndex || frame.has_sky != 0u;
         }
-        if (bvh_walk_cut) atomicAdd(counters.cut_walks, 1u);
-        bool covered = hit.instance != kNoIndex || frame.has_sky != 0u;
-        imageStore(radiance_image, ivec2(pixel), vec4(radiance, covered ? 1.0 : 0.0));
+        if (p.hit.instance != kNoIndex) extendPath(p, counts);
     }
     atomicAdd(s_bounce_rays, counts.bounce_rays);
     atomicAdd(s_shadow_rays, counts.shadow_rays);

@@ -5,16 +5,17 @@
 #define LICHT_PURE_INTERSECT_GLSL
 #include "shared/bvh_numerics.h"
 
-// What a ray needs once before it meets boxes and triangles. Vectors are permuted: .z is the axis along which the ray goes furthest.
+// What a ray needs once before it meets boxes and triangles. Permuted vectors: .z is the axis along which the ray goes furthest. The direction is
+// scaled by a power of two; distances in here are those of the ray times distance_scale.
 // Boxes are widened by what shearing a vertex of the scene can round, so that a ray meets the box of every triangle whose edges accept it.
 struct RaySetup {
-    uint axis;         // the world axis that is z here
-    bvec3 negative;    // the ray goes down this axis: its near plane is the upper one
-    vec3 origin;
-    vec3 shear;        // x, y: slope against z; z: 1 / direction.z
-    vec3 reciprocal;   // 1 / direction, finite
-    vec3 origin_near;  // origins that near and far planes are measured from
-    vec3 origin_far;
+    uint axis;             // the world axis that is z here
+    vec3 origin;           // permuted
+    vec3 shear;            // permuted; x, y: slope against z; z: 1 / direction.z
+    vec2 reciprocal;       // permuted; 1 / direction, finite; of z it is shear.z
+    vec2 slack;            // permuted; how much earlier and later than its planes a box is met, as a distance
+    float distance_scale;  // and its reciprocal: powers of two
+    float direction_scale;
 };
 
 struct TriangleHit {
@@ -33,58 +34,33 @@ bool allFinite(vec3 v) {
     return all(notEqual(floatBitsToUint(v) & 0x7f800000u, uvec3(0x7f800000u)));
 }
 
+vec3 unpermuted(vec3 v, uint axis) {
+    return axis == 0u ? v.zxy : (axis == 1u ? v.yzx : v);
+}
+
 // False: this ray hits nothing (not finite, no direction, or too far out).
 bool setUpRay(vec3 origin, vec3 direction, vec3 scene_lower, vec3 scene_upper, out RaySetup ray) {
     vec3 way = abs(direction);
     ray.axis = way.x >= way.y && way.x >= way.z ? 0u : (way.y >= way.z ? 1u : 2u);
+    // The power of two at or below the longest component; one below the last, whose reciprocal would be denormal.
+    float longest = max(max(way.x, way.y), way.z);
+    uint exponent = min(floatBitsToUint(longest) >> 23u, 253u);
+    ray.distance_scale = uintBitsToFloat(exponent << 23u);
+    ray.direction_scale = uintBitsToFloat((254u - exponent) << 23u);
     ray.origin = permuted(origin, ray.axis);
-    vec3 d = permuted(direction, ray.axis);
-    ray.negative = lessThan(d, vec3(0.0F));
+    vec3 d = permuted(direction * ray.direction_scale, ray.axis);
     ray.shear = vec3(d.x / d.z, d.y / d.z, 1.0F / d.z);
 
-    vec3 direction_sign = vec3(ray.negative.x ? -1.0F : 1.0F, ray.negative.y ? -1.0F : 1.0F, ray.negative.z ? -1.0F : 1.0F);
-    ray.reciprocal = 1.0F / (direction_sign * max(abs(d), vec3(abs(d.z) * kBvhFlattestDirection)));
-
+    vec2 direction_sign = vec2(d.x < 0.0F ? -1.0F : 1.0F, d.y < 0.0F ? -1.0F : 1.0F);
+    ray.reciprocal = 1.0F / (direction_sign * max(abs(d.xy), vec2(abs(d.z) * kBvhFlattestDirection)));
     vec3 reach = max(abs(permuted(scene_lower, ray.axis) - ray.origin), abs(permuted(scene_upper, ray.axis) - ray.origin));
     precise vec2 slack = (reach.xy + reach.z) * kBvhShearSlack + abs(ray.origin.xy) * kBvhOriginSlack;
-    precise vec3 to_near = direction_sign * vec3(slack, 0.0F);
-    ray.origin_near = ray.origin + to_near;
-    ray.origin_far = ray.origin - to_near;
+    ray.slack = slack * abs(ray.reciprocal);
     return allFinite(origin) && allFinite(direction) && all(lessThanEqual(abs(origin), vec3(kBvhLargestCoordinate))) &&
-           abs(d.z) >= kBvhShortestDirection;
+           longest >= kBvhShortestDirection;
 }
 
-// Splits a into parts of 12 bits, so that products of parts are exact (Veltkamp 1968).
-vec2 splitFloat(float a) {
-    precise float c = 4097.0F * a;
-    precise float high = c - (c - a);
-    precise float low = a - high;
-    return vec2(high, low);
-}
-
-// What rounding took from the product a * b (Dekker 1971, A Floating-Point Technique for Extending the Available Precision).
-float productError(float a, float b) {
-    vec2 x = splitFloat(a);
-    vec2 y = splitFloat(b);
-    precise float product = a * b;
-    precise float error = ((x.x * y.x - product) + x.x * y.y + x.y * y.x) + x.y * y.y;
-    return error;
-}
-
-// a x b where both products round to the same float: the difference of what rounding took. The largest coordinate is brought to about 2^60
-// first, so that neither the splitting overflows nor the small parts underflow.
-float edgeFunctionExact(vec2 a, vec2 b) {
-    float largest = max(max(abs(a.x), abs(a.y)), max(abs(b.x), abs(b.y)));
-    uint scale_exponent = uint(clamp(314 - int(floatBitsToUint(largest) >> 23u), 1, 253));
-    float scale = uintBitsToFloat(scale_exponent << 23u);
-    float unscale = uintBitsToFloat((254u - scale_exponent) << 23u);
-    vec2 p = a * scale;
-    vec2 q = b * scale;
-    precise float difference = (p.x * q.y - p.y * q.x) + (productError(p.x, q.y) - productError(p.y, q.x));
-    return difference * unscale * unscale;
-}
-
-// a x b. Rounding is monotonic, so a sign is right or the value is zero; a zero is looked at again without rounding.
+// a x b. Rounding is monotonic, so a sign is right or the value is zero.
 float edgeFunction(vec2 a, vec2 b) {
     precise float left = a.x * b.y;
     precise float right = a.y * b.x;
@@ -92,49 +68,73 @@ float edgeFunction(vec2 a, vec2 b) {
     return value;
 }
 
-// The distance is kept inside the triangle's own box as the traversal measures it; so a traversal that skips boxes beyond the nearest hit
-// returns exactly what testing every triangle returns. No range is applied here.
-bool testTriangle(RaySetup ray, vec3 v0, vec3 v1, vec3 v2, out TriangleHit hit) {
-    hit = TriangleHit(0.0F, 0.0F, 0.0F);
-    vec3 p0 = permuted(v0, ray.axis);
-    vec3 p1 = permuted(v1, ray.axis);
-    vec3 p2 = permuted(v2, ray.axis);
-    precise vec3 a = p0 - ray.origin;
-    precise vec3 b = p1 - ray.origin;
-    precise vec3 c = p2 - ray.origin;
+// A triangle as the ray sees it.
+struct ShearedTriangle {
+    vec2 a, b, c;   // where the vertices pass the ray
+    vec3 x, y, z;   // distances along the ray to the three vertices, by each axis
+};
 
+ShearedTriangle shearTriangle(RaySetup ray, vec3 v0, vec3 v1, vec3 v2) {
+    precise vec3 a = permuted(v0, ray.axis) - ray.origin;
+    precise vec3 b = permuted(v1, ray.axis) - ray.origin;
+    precise vec3 c = permuted(v2, ray.axis) - ray.origin;
     // Shear the ray onto the z axis.
     precise vec2 pa = a.xy - ray.shear.xy * a.z;
     precise vec2 pb = b.xy - ray.shear.xy * b.z;
     precise vec2 pc = c.xy - ray.shear.xy * c.z;
+    return ShearedTriangle(pa, pb, pc, vec3(a.x, b.x, c.x) * ray.reciprocal.x, vec3(a.y, b.y, c.y) * ray.reciprocal.y,
+                           vec3(a.z, b.z, c.z) * ray.shear.z);
+}
 
-    float u = edgeFunction(pc, pb);
-    float v = edgeFunction(pa, pc);
-    float w = edgeFunction(pb, pa);
-    if (u == 0.0F || v == 0.0F || w == 0.0F) {
-        u = u == 0.0F ? edgeFunctionExact(pc, pb) : u;
-        v = v == 0.0F ? edgeFunctionExact(pa, pc) : v;
-        w = w == 0.0F ? edgeFunctionExact(pb, pa) : w;
-    }
+// By comparisons: min() and max() pay for NaN on some drivers.
+float smallest3(vec3 v) {
+    float least = v.x < v.y ? v.x : v.y;
+    return least < v.z ? least : v.z;
+}
+
+float largest3(vec3 v) {
+    float most = v.x > v.y ? v.x : v.y;
+    return most > v.z ? most : v.z;
+}
+
+// How far off the distance of a hit may be: kBvhDistanceSlack says why.
+float distanceUncertainty(ShearedTriangle s, float determinant, float first, float last) {
+    precise float beside = largest3(vec3(largest3(abs(vec3(s.a.x, s.b.x, s.c.x))), largest3(abs(vec3(s.a.y, s.b.y, s.c.y))), 0.0F));
+    precise float away = beside + 2.0F * (abs(first) > abs(last) ? abs(first) : abs(last));
+    precise float spread = last - first;
+    precise float uncertain = kBvhDistanceSlack * (beside / abs(determinant) * away) * spread;
+    return uncertain;
+}
+
+// An edge function that is rounded to zero counts as inside, for every triangle at that edge: what the exact sign would take from one of them, which
+// Woop, Benthin and Wald look for in double precision, belongs to a neighbour, and the neighbours' common boundary stays closed. So a ray can meet a
+// lone triangle by a rounding beside its edge, and never slip between two. (Of tiny triangles far aside every edge function may be rounded to zero: the
+// ray must meet the triangle's box too.)
+// The distance is kept inside the triangle's box as the traversal measures it; so a traversal that skips boxes beyond the nearest hit returns exactly
+// what testing every triangle returns. No range is applied here, but a hit that may as well lie behind the origin, on a triangle
+// that reaches there, is none.
+bool testTriangle(RaySetup ray, vec3 v0, vec3 v1, vec3 v2, out TriangleHit hit) {
+    ShearedTriangle s = shearTriangle(ray, v0, v1, v2);
+    float u = edgeFunction(s.c, s.b);
+    float v = edgeFunction(s.a, s.c);
+    float w = edgeFunction(s.b, s.a);
     precise float determinant = u + v + w;
-    if (determinant == 0.0F || (min(min(u, v), w) < 0.0F && max(max(u, v), w) > 0.0F)) {
-        return false;
-    }
-
     hit.b1 = v / determinant;
     hit.b2 = w / determinant;
-    precise float t = u / determinant * (a.z * ray.shear.z) + hit.b1 * (b.z * ray.shear.z) + hit.b2 * (c.z * ray.shear.z);
+    precise float t = u / determinant * s.z.x + hit.b1 * s.z.y + hit.b2 * s.z.z;
+    vec3 edges = vec3(u, v, w);
+    bool met = determinant != 0.0F && !(smallest3(edges) < 0.0F && largest3(edges) > 0.0F);
 
-    // Keep the distance inside the triangle's box.
-    vec3 lower = min(min(p0, p1), p2);
-    vec3 upper = max(max(p0, p1), p2);
-    vec3 enter = (mix(lower, upper, ray.negative) - ray.origin_near) * ray.reciprocal;
-    vec3 leave = (mix(upper, lower, ray.negative) - ray.origin_far) * ray.reciprocal;
-    float nearest = max(max(enter.x, enter.y), enter.z);
-    float farthest = min(min(leave.x, leave.y), leave.z);
-    farthest = max(farthest * kBvhFarWider, farthest * kBvhFarNarrower);
-    hit.t = min(max(t, nearest), farthest);
-    return true;
+    float first = smallest3(s.z);
+    float last = largest3(s.z);
+    precise float uncertain = distanceUncertainty(s, determinant, first, last);
+    met = met && (first > 0.0F || t >= uncertain);
+
+    float nearest = largest3(vec3(smallest3(s.x) - ray.slack.x, smallest3(s.y) - ray.slack.y, first));
+    float farthest = smallest3(vec3(largest3(s.x) + ray.slack.x, largest3(s.y) + ray.slack.y, last));
+    t = t > nearest ? t : nearest;
+    hit.t = t < farthest ? t : farthest;
+    return met && nearest <= farthest;
 }
 
 #endif

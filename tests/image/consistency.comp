@@ -13,6 +13,8 @@ layout(std430, binding = 30) buffer OutcomeBlock {
     uint lost;
 };
 
+void onRay(vec3 origin, vec3 direction, float t_max, bool any_hit) {}
+
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(pixel, imageSize(gbuffer)))) return;

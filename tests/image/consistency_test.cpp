@@ -133,7 +133,9 @@ TEST(Effects, AbsentOnesOwnNoBuffers) {
     gpu::Device& device = gpu::testDevice();
     const auto absent = [&](const char* scene_name) {
         const Scene scene = builtin(scene_name);
-        const GpuScene gpu_scene(device, scene, detectEffects(scene), {});
+        GpuScene::Options options;
+        options.storage_buffers = true;  // so that every record has a buffer of its own name
+        const GpuScene gpu_scene(device, scene, detectEffects(scene), options);
         std::vector<std::string> names;
         for (const gpu::BoundResource& r : gpu_scene.resources()) {
             const gpu::Buffer* const* buffer = std::get_if<const gpu::Buffer*>(&r.resource);
@@ -142,8 +144,8 @@ TEST(Effects, AbsentOnesOwnNoBuffers) {
         return names;
     };
     const std::vector<std::string> cornell = absent("cornell");
-    for (const char* name :
-         {"Tangents", "Colors", "ExtraUvs", "Textures", "SrgbTable", "texel_pages", "EnvironmentAlias"})
+    for (const char* name : {"Tangents", "Colors", "ExtraUvs", "Textures", "SrgbTable", "texel_pages",
+                             "EnvironmentAlias", "InstanceTransforms"})
         EXPECT_EQ(std::count(cornell.begin(), cornell.end(), name), 1) << name;
     const std::vector<std::string> furnace = absent("furnace");
     for (const char* name : {"Lights", "LightAlias"})
@@ -192,12 +194,23 @@ TEST_P(EveryScene, SpecialisedProgramsGiveTheSamePicture) {
     expectSamePicture(a, b, std::string("specialised_") + GetParam());
 }
 
-TEST_P(EveryScene, BvhInStorageBuffersGivesTheSameBits) {
+TEST_P(EveryScene, StorageBuffersGiveTheSameBits) {
     const Scene scene = builtin(GetParam());
     RenderSettings storage = small();
-    storage.storage_buffer_bvh = true;
+    storage.storage_buffers = true;
     EXPECT_TRUE(identical(renderFilm(scene, scene.cameras[0], small(), 2).mean,
                           renderFilm(scene, scene.cameras[0], storage, 2).mean));
+}
+
+// One path a thread is the naive form of several. 7 does not divide the picture's rows.
+TEST_P(EveryScene, PathsOneAfterTheOtherGiveTheSameBits) {
+    const Scene scene = builtin(GetParam());
+    RenderSettings one = small();
+    one.paths_per_thread = 1;
+    RenderSettings several = small();
+    several.paths_per_thread = 7;
+    EXPECT_TRUE(identical(renderFilm(scene, scene.cameras[0], one, 2).mean,
+                          renderFilm(scene, scene.cameras[0], several, 2).mean));
 }
 
 // Every pixel's primary hit, traced again from the eye through the same point: the same primitive, or the

@@ -17,5 +17,6 @@ layout(std430, binding = 6) readonly buffer Lights { LightRecord lights[]; };
 layout(std430, binding = 7) readonly buffer Alias { AliasRecord alias[]; };
 layout(std430, binding = 8) buffer Counters { CounterRecord counters; };
 layout(std430, binding = 9) readonly buffer Nodes { BvhNode nodes[]; };
+layout(std430, binding = 10) readonly buffer Transforms { InstanceTransformRecord transforms[]; };
 
 void main() {}

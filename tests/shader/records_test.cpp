@@ -114,10 +114,16 @@ std::map<std::string, Record> hostRecords() {
                      LICHT_MEMBER(CounterRecord, shadow_rays), LICHT_MEMBER(CounterRecord, nonfinite_samples),
                      LICHT_MEMBER(CounterRecord, cut_walks)),
         LICHT_RECORD(TonemapPush, LICHT_MEMBER(TonemapPush, exposure), LICHT_MEMBER(TonemapPush, curve)),
-        LICHT_RECORD(BvhNode, LICHT_MEMBER(BvhNode, lower_x), LICHT_MEMBER(BvhNode, upper_x),
-                     LICHT_MEMBER(BvhNode, lower_y), LICHT_MEMBER(BvhNode, upper_y),
-                     LICHT_MEMBER(BvhNode, lower_z), LICHT_MEMBER(BvhNode, upper_z),
-                     LICHT_MEMBER(BvhNode, child)),
+        LICHT_RECORD(BvhNode, LICHT_MEMBER(BvhNode, origin), LICHT_MEMBER(BvhNode, head),
+                     LICHT_MEMBER(BvhNode, planes_x), LICHT_MEMBER(BvhNode, planes_y),
+                     LICHT_MEMBER(BvhNode, planes_z)),
+        LICHT_RECORD(
+            InstanceTransformRecord, LICHT_MEMBER(InstanceTransformRecord, world_x),
+            LICHT_MEMBER(InstanceTransformRecord, pivot_x), LICHT_MEMBER(InstanceTransformRecord, world_y),
+            LICHT_MEMBER(InstanceTransformRecord, pivot_y), LICHT_MEMBER(InstanceTransformRecord, world_z),
+            LICHT_MEMBER(InstanceTransformRecord, pivot_z), LICHT_MEMBER(InstanceTransformRecord, condition),
+            LICHT_MEMBER(InstanceTransformRecord, mirrored), LICHT_MEMBER(InstanceTransformRecord, reserved0),
+            LICHT_MEMBER(InstanceTransformRecord, reserved1)),
     };
 }
 

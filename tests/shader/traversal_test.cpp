@@ -3,17 +3,12 @@
 // a device that uses this may differ in the last bits.)
 #include <gtest/gtest.h>
 
-#include <bit>
-#include <cstring>
 #include <limits>
 #include <optional>
 #include <vector>
 
 #include "licht/bvh/bvh.h"
-#include "licht/gpu/commands.h"
-#include "licht/shared/records.h"
-#include "licht/spirv/traversal_comp.h"
-#include "support/gpu_test.h"
+#include "support/tracer.h"
 #include "unit/bvh_meshes.h"
 
 namespace licht {
@@ -23,102 +18,7 @@ using test::Mesh;
 using test::Random;
 using test::soup;
 using test::sphere;
-
-struct Query {
-    std::uint32_t ray_count = 0;
-    std::uint32_t any_hit = 0;
-    std::uint32_t refused = 0;
-    std::uint32_t stride = 0;
-};
-
-constexpr std::uint32_t kCut = 0xfffffffeU;  // what traversal.comp writes for a walk that was cut
-
-/// A scene on the device.
-class Tracer {
-public:
-    Tracer(std::vector<BvhTriangle> triangles, bool in_storage)
-        : triangles_(std::move(triangles)),
-          bvh_(buildBvh(triangles_)),
-          program_(gpu::Program::compute(device(), "traversal", traversal_comp,
-                                         {{64, in_storage ? 1U : 0U}, {65, bvh_.max_stack}})) {
-        std::vector<vec4> vertices;
-        for (const std::uint32_t id : bvh_.triangle_ids) {
-            for (const vec3& vertex : {triangles_[id].v0, triangles_[id].v1, triangles_[id].v2}) {
-                vertices.emplace_back(vertex, 0.0F);
-            }
-        }
-        constexpr VkBufferUsageFlags kUsage =
-            VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
-        nodes_ = gpu::uploadBuffer(device(), "nodes", std::span<const BvhNode>(bvh_.nodes), kUsage);
-        vertices_ = gpu::uploadBuffer(device(), "vertices", std::span<const vec4>(vertices), kUsage);
-        ids_ = gpu::uploadBuffer(device(), "ids", std::span<const std::uint32_t>(bvh_.triangle_ids), kUsage);
-        node_view_ = gpu::TexelView(device(), nodes_, VK_FORMAT_R32G32B32A32_SFLOAT);
-        child_view_ = gpu::TexelView(device(), nodes_, VK_FORMAT_R32G32B32A32_UINT);
-        vertex_view_ = gpu::TexelView(device(), vertices_, VK_FORMAT_R32G32B32A32_SFLOAT);
-    }
-
-    [[nodiscard]] const std::vector<BvhTriangle>& triangles() const { return triangles_; }
-    [[nodiscard]] const Bvh& bvh() const { return bvh_; }
-
-    /// Walks so far that the device did not finish.
-    [[nodiscard]] int cutWalks() const { return cut_walks_; }
-
-    std::vector<std::optional<BvhHit>> trace(const std::vector<Ray>& rays, Query query = {}) {
-        std::vector<vec4> data;
-        for (const Ray& ray : rays) {
-            data.emplace_back(ray.origin, ray.t_min);
-            data.emplace_back(ray.direction, ray.t_max);
-        }
-        const gpu::Buffer input = gpu::uploadBuffer(device(), "rays", std::span<const vec4>(data),
-                                                    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
-        const gpu::Buffer output(device(), "hits", rays.size() * sizeof(vec4),
-                                 VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
-                                 gpu::Memory::device);
-        const std::vector<gpu::BoundResource> resources{
-            {"rays", &input},
-            {"hits", &output},
-            {"bvh_nodes", &node_view_},
-            {"bvh_children", &child_view_},
-            {"bvh_triangles", &vertex_view_},
-            {"bvh_nodes_storage", &nodes_},
-            {"bvh_children_storage", &nodes_},
-            {"bvh_triangles_storage", &vertices_},
-            {"bvh_triangle_ids", &ids_},
-        };
-        const gpu::Bindings bindings(device(), program_, resources);
-        query.ray_count = static_cast<std::uint32_t>(rays.size());
-        gpu::Commands commands(device());
-        commands.begin();
-        commands.pass(
-            "trace", {{&input, gpu::Access::compute_read}, {&output, gpu::Access::compute_write}},
-            [&](const gpu::Pass& pass) { pass.dispatch(program_, bindings, query, query.ray_count); });
-        commands.submit();
-        commands.wait();
-
-        const std::vector<std::byte> bytes = gpu::readBuffer(device(), output);
-        std::vector<vec4> raw(rays.size());
-        std::memcpy(raw.data(), bytes.data(), raw.size() * sizeof(vec4));
-        std::vector<std::optional<BvhHit>> hits;
-        for (const vec4& hit : raw) {
-            const auto position = std::bit_cast<std::uint32_t>(hit.x);
-            cut_walks_ += position == kCut ? 1 : 0;
-            hits.push_back(position == kNoIndex || position == kCut
-                               ? std::nullopt
-                               : std::optional(BvhHit{bvh_.triangle_ids.at(position), hit.y, hit.z, hit.w}));
-        }
-        return hits;
-    }
-
-private:
-    int cut_walks_ = 0;
-    static gpu::Device& device() { return gpu::testDevice(); }
-
-    std::vector<BvhTriangle> triangles_;
-    Bvh bvh_;
-    gpu::Program program_;
-    gpu::Buffer nodes_, vertices_, ids_;
-    gpu::TexelView node_view_, child_view_, vertex_view_;
-};
+using test::Tracer;
 
 std::vector<Ray> randomRays(int count, float half, std::uint32_t seed) {
     Random random(seed);

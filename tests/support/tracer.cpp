@@ -1,0 +1,74 @@
+#include "support/tracer.h"
+
+#include <bit>
+#include <cstring>
+#include <span>
+
+#include "licht/gpu/commands.h"
+#include "licht/shared/records.h"
+#include "licht/spirv/tracer_comp.h"
+#include "support/gpu_test.h"
+
+namespace licht::test {
+namespace {
+
+constexpr std::uint32_t kCut = 0xfffffffeU;  // what tracer.comp writes for a walk that was cut
+
+gpu::SpecConstants constantsOf(const GpuBvh& bvh) {
+    gpu::SpecConstants constants;
+    bvh.addTo(constants);
+    return constants;
+}
+
+}  // namespace
+
+Tracer::Tracer(std::vector<BvhTriangle> triangles, bool in_storage)
+    : triangles_(std::move(triangles)),
+      bvh_(buildBvh(triangles_)),
+      device_bvh_(gpu::testDevice(), bvh_.nodes, triangleTexels(bvh_, triangles_), bvh_.max_stack,
+                  in_storage),
+      program_(gpu::Program::compute(gpu::testDevice(), "tracer", tracer_comp, constantsOf(device_bvh_))) {}
+
+std::vector<std::optional<BvhHit>> Tracer::trace(const std::vector<Ray>& rays, TraceQuery query) {
+    std::vector<vec4> data;
+    data.reserve(2 * rays.size());
+    for (const Ray& ray : rays) {
+        data.emplace_back(ray.origin, ray.t_min);
+        data.emplace_back(ray.direction, ray.t_max);
+    }
+    gpu::Device& device = gpu::testDevice();
+    const gpu::Buffer input =
+        gpu::uploadBuffer(device, "rays", std::span<const vec4>(data), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+    const gpu::Buffer output(device, "hits", rays.size() * sizeof(vec4),
+                             VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+                             gpu::Memory::device);
+    std::vector<gpu::BoundResource> resources{{"rays", &input}, {"hits", &output}};
+    device_bvh_.addTo(resources);
+    const gpu::Bindings bindings(device, program_, resources);
+    query.ray_count = static_cast<std::uint32_t>(rays.size());
+    gpu::Commands commands(device);
+    commands.begin();
+    commands.pass("trace", {{&input, gpu::Access::compute_read}, {&output, gpu::Access::compute_write}},
+                  [&](const gpu::Pass& pass) { pass.dispatch(program_, bindings, query, query.ray_count); });
+    commands.submit();
+    commands.wait();
+    for (const auto& [name, time] : commands.times()) {
+        device_seconds_ += time.seconds;
+    }
+
+    const std::vector<std::byte> bytes = gpu::readBuffer(device, output);
+    std::vector<vec4> raw(rays.size());
+    std::memcpy(raw.data(), bytes.data(), raw.size() * sizeof(vec4));
+    std::vector<std::optional<BvhHit>> hits;
+    hits.reserve(rays.size());
+    for (const vec4& hit : raw) {
+        const auto position = std::bit_cast<std::uint32_t>(hit.x);
+        cut_walks_ += position == kCut ? 1 : 0;
+        hits.push_back(position == kNoIndex || position == kCut
+                           ? std::nullopt
+                           : std::optional(BvhHit{bvh_.triangle_ids.at(position), hit.y, hit.z, hit.w}));
+    }
+    return hits;
+}
+
+}  // namespace licht::test
