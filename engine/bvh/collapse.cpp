@@ -14,7 +14,10 @@ namespace licht {
 namespace {
 
 constexpr std::uint32_t kTaskTriangles = 1U << 12U;  // that are worth a task of their own
-constexpr std::uint32_t kTaskDepth = 12;             // where sizes are not known yet, levels that make tasks
+// 64 bytes a node and 48 a triangle make 64 a triangle.
+constexpr float kMostNodesPerTriangle = 0.25F;
+constexpr int kMemoryAttempts = 8;
+constexpr std::uint32_t kTaskDepth = 12;  // where sizes are not known yet, levels that make tasks
 
 /// How a binary subtree becomes children of a wide node.
 struct Plan {
@@ -44,7 +47,9 @@ struct Costs {
 
 class Planner {
 public:
-    Planner(std::span<const BinaryNode> binary, std::span<Plan> plans) : binary_(binary), plans_(plans) {}
+    /// memory_cost: what a node costs for being there, whatever its area.
+    Planner(std::span<const BinaryNode> binary, std::span<Plan> plans, float memory_cost)
+        : binary_(binary), plans_(plans), memory_cost_(memory_cost) {}
 
     Costs plan(std::uint32_t index, std::uint32_t depth) const {
         const BinaryNode& node = binary_[index];
@@ -70,7 +75,7 @@ public:
         const Choice as_node = choose(left, right, kBvhWidth);
         plan.setSplit(kBvhWidth, as_node.left);
         plan.nodes = as_node.nodes + 1;
-        result.cost[0] = as_node.cost + area * static_cast<float>(kBvhNodeCost);
+        result.cost[0] = as_node.cost + area * static_cast<float>(kBvhNodeCost) + memory_cost_;
         result.nodes[0] = plan.nodes;
         for (std::size_t slots = 2; slots < kBvhWidth; ++slots) {
             const Choice choice = choose(left, right, slots);
@@ -103,6 +108,7 @@ private:
 
     std::span<const BinaryNode> binary_;
     std::span<Plan> plans_;
+    float memory_cost_;
 };
 
 /// What a subtree asks of a traversal.
@@ -228,7 +234,14 @@ void collapse(std::span<const BinaryNode> binary, Bvh& bvh) {
         return;
     }
     const Uninitialised<Plan> plans(binary.size());
-    (void)Planner(binary, plans.span()).plan(0, 0);
+    // The cheapest tree for rays, and fuller nodes where that would take too much memory.
+    float memory_cost = 0.0F;
+    for (int attempt = 0; attempt < kMemoryAttempts; ++attempt) {
+        const Costs costs = Planner(binary, plans.span(), memory_cost).plan(0, 0);
+        const auto nodes = static_cast<float>(plans[0].nodes);
+        if (nodes <= kMostNodesPerTriangle * static_cast<float>(plans[0].triangles)) break;
+        memory_cost = attempt == 0 ? costs.cost[0] / nodes / 8.0F : 2.0F * memory_cost;
+    }
     bvh.nodes.resize(std::max(plans[0].nodes, 1U));
     bvh.triangle_ids.resize(plans[0].triangles);
     const Extent extent = Emitter(binary, plans.span(), bvh).emit(0, 0, 1, 0);

@@ -96,6 +96,19 @@ TEST(BvhQuality, ForetellsTheStepsOfEvenlySpreadRays) {
     EXPECT_NEAR(mean, sahCost(bvh), 4.0 * error);  // 4 standard errors: one seed in 16,000 fails
 }
 
+// Boxes that overlap everywhere make cheap trees of half-empty nodes; memory is kept for a little of that.
+TEST(BvhQuality, ATriangleTakesNoMoreThan64Bytes) {
+    constexpr std::size_t kTriangleBytes = kBvhTexelsPerTriangle * sizeof(vec4);
+    for (const BvhQuality quality : {BvhQuality::fast, BvhQuality::balanced, BvhQuality::best}) {
+        for (const float size : {0.001F, 0.03F, 0.5F}) {
+            const Bvh bvh = buildBvh(soup(20'000, size, 5), {quality});
+            const std::size_t bytes =
+                bvh.nodes.size() * sizeof(BvhNode) + bvh.triangle_ids.size() * kTriangleBytes;
+            EXPECT_LE(bytes, 64 * bvh.triangle_ids.size()) << static_cast<int>(quality) << " " << size;
+        }
+    }
+}
+
 TEST(BvhQuality, BetterQualitiesCostLess) {
     // Long thin triangles among small ones: where the first tree leaves something to be gained.
     auto triangles = soup(4'000, 0.02F, 3);
