@@ -55,7 +55,7 @@ struct TwoLevelBvh {
 /// Instances of meshes without a usable triangle are left out of the top level.
 TwoLevelBvh buildTwoLevelBvh(std::span<const BvhTriangle> baked,
                              std::span<const std::vector<BvhTriangle>> meshes,
-                             std::vector<BvhInstance> instances);
+                             std::vector<BvhInstance> instances, const BvhBuildOptions& options = {});
 
 inline constexpr std::uint32_t kBakedInstance = 0xffffffffU;
 

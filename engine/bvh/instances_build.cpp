@@ -27,13 +27,13 @@ std::vector<vec3> usedPoints(const Bvh& bvh, std::span<const BvhTriangle> triang
 
 TwoLevelBvh buildTwoLevelBvh(std::span<const BvhTriangle> baked,
                              std::span<const std::vector<BvhTriangle>> meshes,
-                             std::vector<BvhInstance> instances) {
+                             std::vector<BvhInstance> instances, const BvhBuildOptions& options) {
     const auto start = std::chrono::steady_clock::now();
     TwoLevelBvh tree;
-    tree.baked = buildBvh(baked);
+    tree.baked = buildBvh(baked, options);
     std::vector<std::vector<vec3>> points;
     for (const std::vector<BvhTriangle>& mesh : meshes) {
-        tree.meshes.push_back(buildBvh(mesh));
+        tree.meshes.push_back(buildBvh(mesh, options));
         points.push_back(usedPoints(tree.meshes.back(), mesh));
     }
     tree.instances = std::move(instances);

@@ -17,13 +17,13 @@ GpuBvh::GpuBvh(gpu::Device& device, std::span<const BvhNode> nodes, std::span<co
       max_stack_(std::max(max_stack, 1U)),
       bytes_(nodes.size_bytes() + triangles.size_bytes()) {
     const std::uint64_t most_bytes = std::max(nodes.size_bytes(), triangles.size_bytes());
-    const std::uint64_t texel_bytes = std::uint64_t{device.limits().maxTexelBufferElements} * sizeof(vec4);
-    in_storage_ = storage || most_bytes > texel_bytes;
+    in_storage_ = storage || !fitTexelBuffer(most_bytes, device.limits());
     if (in_storage_ && most_bytes > device.limits().maxStorageBufferRange)
         throw InputError(
             fmt::format("the scene's BVH has a buffer of {} bytes, and this device's buffers hold at most {} "
                         "(texel) and {} (storage)",
-                        most_bytes, texel_bytes, device.limits().maxStorageBufferRange));
+                        most_bytes, std::uint64_t{device.limits().maxTexelBufferElements} * sizeof(vec4),
+                        device.limits().maxStorageBufferRange));
     const VkBufferUsageFlags usage =
         in_storage_ ? VK_BUFFER_USAGE_STORAGE_BUFFER_BIT : VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
     nodes_ = gpu::uploadBuffer(device, "bvh_nodes", nodes, usage);
@@ -42,6 +42,10 @@ void GpuBvh::addTo(std::vector<gpu::BoundResource>& resources) const {
 void GpuBvh::addTo(gpu::SpecConstants& constants) const {
     constants[kConstantBvhInStorage] = in_storage_ ? 1U : 0U;
     constants[kConstantBvhStackSize] = max_stack_;
+}
+
+bool fitTexelBuffer(std::uint64_t bytes, const VkPhysicalDeviceLimits& limits) {
+    return bytes <= std::uint64_t{limits.maxTexelBufferElements} * sizeof(vec4);
 }
 
 void appendTriangleTexels(std::vector<vec4>& texels, const BvhTriangle& triangle, const TriangleName& name) {

@@ -32,6 +32,9 @@ private:
     std::uint64_t bytes_ = 0;
 };
 
+/// Whether texel buffers of four words a texel hold that many bytes; every device has 65,536 texels.
+bool fitTexelBuffer(std::uint64_t bytes, const VkPhysicalDeviceLimits& limits);
+
 /// What a hit is called beside its triangle; numbers below 2^24, which floats hold exactly.
 struct TriangleName {
     uint index = 0;  ///< decides between equal distances

@@ -125,7 +125,7 @@ GpuScene::GpuScene(gpu::Device& device, const Scene& scene, const Effects& effec
     std::vector<uint> first_light;
     uploadLights(scene, effects, order, options.sample_surfaces_and_sky, first_light);
     const std::uint64_t before = bytes_;
-    uploadGeometry(scene, effects, order, first_light, options.storage_buffers);
+    uploadGeometry(scene, effects, order, first_light, options);
     geometry_bytes_ = bytes_ - before;
     uploadMaterials(scene, effects);
     viewRecords(options.storage_buffers);
@@ -143,7 +143,7 @@ gpu::Buffer GpuScene::upload(const char* name, const std::vector<T>& values, VkB
 }
 
 void GpuScene::uploadGeometry(const Scene& scene, const Effects& effects, const InstanceOrder& order,
-                              const std::vector<uint>& first_light, bool storage_buffers) {
+                              const std::vector<uint>& first_light, const Options& options) {
     const FlatGeometry geometry = flattenGeometry(scene, effects, order, first_light);
     bounds_ = geometry.bounds;
     extra_uv_sets_ = geometry.extra_uv_sets;
@@ -154,7 +154,7 @@ void GpuScene::uploadGeometry(const Scene& scene, const Effects& effects, const 
     if (!geometry.colors.empty()) colors_ = upload("colors", geometry.colors);
     if (!geometry.extra_uvs.empty()) extra_uvs_ = upload("extra_uvs", geometry.extra_uvs);
     addDraws(geometry);
-    uploadBvh(geometry, storage_buffers);
+    uploadBvh(geometry, options);
 }
 
 // glTF: back faces of single-sided materials are not drawn. Rays meet both sides, so that visibility stays
@@ -185,14 +185,15 @@ void GpuScene::addDraws(const FlatGeometry& geometry) {
     }
 }
 
-void GpuScene::uploadBvh(const FlatGeometry& geometry, bool storage) {
+void GpuScene::uploadBvh(const FlatGeometry& geometry, const Options& options) {
     std::vector<std::vector<BvhTriangle>> meshes;
     std::vector<uint> triangle_counts{static_cast<uint>(geometry.triangle_instances.size())};
     for (const MeshPiece& piece : geometry.pieces) {
         meshes.push_back(piece.triangles);
         triangle_counts.push_back(piece.triangle_count);
     }
-    TwoLevelBvh tree = buildTwoLevelBvh(worldTriangles(geometry), meshes, geometry.placements);
+    TwoLevelBvh tree =
+        buildTwoLevelBvh(worldTriangles(geometry), meshes, geometry.placements, {options.bvh_quality});
     bvh_seconds_ = tree.build_seconds;
     bvh_dropped_ = tree.baked.dropped;
     for (const Bvh& mesh : tree.meshes) bvh_dropped_ += mesh.dropped;
@@ -224,7 +225,7 @@ void GpuScene::uploadBvh(const FlatGeometry& geometry, bool storage) {
         for (std::size_t i = bvh.first_instance_position; i < bvh.ids.size(); ++i)
             texels.emplace_back(bvh.roots[geometry.placements[bvh.ids[i]].mesh], bvh.ids[i], 0.0F, 0.0F);
     }
-    bvh_ = GpuBvh(*device_, bvh.nodes, texels, bvh.max_stack, storage);
+    bvh_ = GpuBvh(*device_, bvh.nodes, texels, bvh.max_stack, options.storage_buffers);
     bytes_ += bvh_.bytes();
 }
 

@@ -22,6 +22,7 @@ public:
     struct Options {
         bool sample_surfaces_and_sky = true;
         bool storage_buffers = false;
+        BvhQuality bvh_quality = BvhQuality::balanced;
     };
 
     /// Throws InputError, with the numbers, where the scene is larger than the device's buffers may be.
@@ -51,8 +52,8 @@ public:
 
 private:
     void uploadGeometry(const Scene& scene, const Effects& effects, const InstanceOrder& order,
-                        const std::vector<uint>& first_light, bool storage_buffers);
-    void uploadBvh(const FlatGeometry& geometry, bool storage);
+                        const std::vector<uint>& first_light, const Options& options);
+    void uploadBvh(const FlatGeometry& geometry, const Options& options);
     void addDraws(const FlatGeometry& geometry);
     void viewRecords(bool storage);
     void uploadMaterials(const Scene& scene, const Effects& effects);

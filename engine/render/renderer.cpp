@@ -93,7 +93,7 @@ struct Renderer::State {
           camera(c),
           effects(effectsOf(scene, s)),
           upload_start(Clock::now()),
-          gpu_scene(d, scene, effects, {s.direct == DirectLight::mis, s.storage_buffers}),
+          gpu_scene(d, scene, effects, {s.direct == DirectLight::mis, s.storage_buffers, s.bvh_quality}),
           frame_buffer(d, "frame", sizeof(FrameRecord), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
                        gpu::Memory::host_write),
           slots{Slot(d, "counters 0"), Slot(d, "counters 1")} {

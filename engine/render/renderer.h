@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "licht/bvh/bvh.h"
 #include "licht/gpu/commands.h"
 #include "licht/image/image.h"
 #include "licht/scene/effects.h"
@@ -36,6 +37,7 @@ struct RenderSettings {
     AovSet aovs;
     bool all_effects =
         false;  ///< compile everything, called for or not (the reference for the specialised programs)
+    BvhQuality bvh_quality = BvhQuality::balanced;
     bool flatten_instances = false;  ///< bake every instance (the reference for two levels)
     bool storage_buffers = false;    ///< fetch BVH and records from storage buffers even where texel buffers
                                      ///< are large enough

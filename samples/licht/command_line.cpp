@@ -114,6 +114,13 @@ void addExpert(CLI::App& app, RenderSettings& settings) {
     app.add_flag("--all-effects", settings.all_effects,
                  "Compile every effect, whether the scene calls for it or not")
         ->group(group);
+    addValue(app, "--bvh", "QUALITY",
+             "How well the BVH is built: fast, balanced or best; better trees take longer to build "
+             "(default: balanced)",
+             [&settings](std::string_view option, std::string_view text) {
+                 settings.bvh_quality = parseQuality(option, text);
+             })
+        ->group(group);
     app.add_flag("--flatten-instances", settings.flatten_instances,
                  "Store every instance of a mesh as triangles of its own")
         ->group(group);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "licht/bvh/bvh.h"
+#include "support/gpu_test.h"
 #include "support/tracer.h"
 #include "unit/bvh_meshes.h"
 
@@ -208,6 +209,24 @@ TEST_P(Traversal, NoWalkIsCutSilently) {
     Tracer tracer(std::vector<BvhTriangle>(320'000, kTriangle), GetParam());
     const int misses = missesAmongEqualTriangles(tracer, 5'000);
     EXPECT_EQ(misses, tracer.cutWalks());
+}
+
+// The least that a device may offer, and lavapipe.
+TEST(TraversalMemory, StorageBuffersAreTakenWhereTexelBuffersAreTooSmall) {
+    VkPhysicalDeviceLimits limits{};
+    limits.maxTexelBufferElements = 65'536;
+    limits.maxStorageBufferRange = 1U << 27U;
+    EXPECT_TRUE(fitTexelBuffer(65'536 * sizeof(vec4), limits));
+    EXPECT_FALSE(fitTexelBuffer(65'537 * sizeof(vec4), limits));
+    gpu::Device& device = gpu::testDevice();
+    const std::vector<BvhTriangle> triangles = soup(100, 0.2F, 8);
+    const Bvh bvh = buildBvh(triangles);
+    const auto inStorage = [&](bool asked) {
+        return GpuBvh(device, bvh.nodes, triangleTexels(bvh, triangles), bvh.max_stack, asked).inStorage();
+    };
+    EXPECT_TRUE(inStorage(true));
+    EXPECT_EQ(inStorage(false),
+              !fitTexelBuffer(triangles.size() * kBvhTexelsPerTriangle * sizeof(vec4), device.limits()));
 }
 
 }  // namespace
