@@ -38,6 +38,9 @@ AccessInfo accessInfo(Access access, bool image) {
         case Access::compute_sample:
             return {kCompute, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT, 0,
                     VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+        case Access::indirect_read:
+            return {VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT, VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT, 0,
+                    VK_IMAGE_LAYOUT_UNDEFINED};
         case Access::raster_read:
             return {kRaster, raster_read, 0, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
         case Access::color_target:

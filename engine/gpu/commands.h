@@ -20,6 +20,7 @@ enum class Access {
     compute_write,  ///< storage, written without being read
     compute_read_write,
     compute_sample,  ///< sampled image
+    indirect_read,   ///< VkDispatchIndirectCommand
     raster_read,     ///< buffers in vertex and fragment shaders
     color_target,    ///< cleared or overwritten
     depth_target,
@@ -52,6 +53,15 @@ public:
     void dispatch(const Program& program, const Bindings& bindings, const Push& push, std::uint32_t threads_x,
                   std::uint32_t threads_y = 1) const {
         dispatchBytes(program, bindings, std::as_bytes(std::span(&push, 1)), threads_x, threads_y);
+    }
+    /// Dispatches as many workgroups as the VkDispatchIndirectCommand at `offset` says; the pass uses the
+    /// buffer as indirect_read.
+    template <typename Push>
+    void dispatchIndirect(const Program& program, const Bindings& bindings, const Push& constants,
+                          const Buffer& buffer, VkDeviceSize offset) const {
+        bind(program, bindings);
+        push(program, std::as_bytes(std::span(&constants, 1)));
+        vkCmdDispatchIndirect(commandBuffer(), buffer.handle(), offset);
     }
     void dispatch(const Program& program, const Bindings& bindings, std::uint32_t threads_x,
                   std::uint32_t threads_y = 1) const {

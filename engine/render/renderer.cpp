@@ -12,6 +12,7 @@
 #include "licht/render/history.h"
 #include "licht/render/passes.h"
 #include "licht/render/programs.h"
+#include "licht/render/queues.h"
 #include "licht/render/view.h"
 
 namespace licht {
@@ -109,6 +110,7 @@ struct Renderer::State {
     }
 
     void runEveryProgramOnce();
+    void recordSamples(gpu::Commands& commands, std::size_t slot, const SamplePush& push);
 
     void resize(uvec2 size);
     void writeFrame(const ViewRecord& view, const ViewRecord& previous);
@@ -125,6 +127,7 @@ struct Renderer::State {
     GpuScene gpu_scene;
     gpu::Buffer frame_buffer;
     std::optional<Programs> programs;
+    std::optional<Queues> queues;
     std::array<Slot, 2> slots;
     std::size_t next_slot = 0;
     std::optional<History> history;
@@ -132,6 +135,15 @@ struct Renderer::State {
     ViewRecord view{};
     RenderStatistics statistics;
 };
+
+void Renderer::State::recordSamples(gpu::Commands& commands, std::size_t slot, const SamplePush& push) {
+    if (queues) {
+        queues->record(commands, *history, slot, slots[slot].counters, push);
+    } else {
+        recordPath(commands, programs->path, slots[slot].path, *history, slots[slot].counters, push,
+                   paths_per_thread);
+    }
+}
 
 // Some drivers compile at first use. Done here, on one row of the picture, so that compiling is told from
 // rendering; nothing of it is kept.
@@ -141,7 +153,7 @@ void Renderer::State::runEveryProgramOnce() {
     gpu::Commands commands(device);
     commands.begin();
     recordGbuffer(commands, programs->gbuffer, gbuffer_bindings, gpu_scene, *history, push);
-    recordPath(commands, programs->path, slots[0].path, *history, slots[0].counters, push, paths_per_thread);
+    recordSamples(commands, 0, push);
     recordAccumulate(commands, programs->accumulate, accumulate_bindings, *history, push);
     if (settings.aovs.any()) recordLayers(commands, programs->layers, layer_bindings, *history, push);
     recordTonemap(commands, programs->tonemap, tonemap_bindings, *history, TonemapPush{});
@@ -161,6 +173,13 @@ void Renderer::State::resize(uvec2 size) {
     accumulate_bindings = gpu::Bindings(device, programs->accumulate, resources);
     tonemap_bindings = gpu::Bindings(device, programs->tonemap, resources);
     if (settings.aovs.any()) layer_bindings = gpu::Bindings(device, programs->layers, resources);
+    if (settings.queues) {
+        queues.emplace(device, constantsOf(effects, gpu_scene, settings, paths_per_thread), size,
+                       settings.bounces);
+        const std::array counters{static_cast<const gpu::Buffer*>(&slots[0].counters),
+                                  static_cast<const gpu::Buffer*>(&slots[1].counters)};
+        queues->bind(device, resources, counters);
+    }
     for (Slot& slot : slots) {
         std::vector<gpu::BoundResource> with_counters = resources;
         with_counters.push_back({"Counters", &slot.counters});
@@ -205,13 +224,14 @@ Slot& Renderer::State::nextSlot() {
 std::uint32_t Renderer::State::rowsPerSlice() const {
     double seconds = 0.0;
     for (const Slot& slot : slots) {
-        const auto time = slot.commands.times().find("path");
-        if (time != slot.commands.times().end()) seconds += time->second.seconds;
+        for (const auto& [pass, time] : slot.commands.times())
+            if (pass.starts_with("path")) seconds += time.seconds;
     }
     const double rows_done = static_cast<double>(history->samples) * settings.size.y;
-    if (seconds <= 0.0 || rows_done <= 0.0) return std::min(settings.size.y, 128U);
+    const std::uint32_t most_rows = queues ? std::min(queues->mostRows(), settings.size.y) : settings.size.y;
+    if (seconds <= 0.0 || rows_done <= 0.0) return std::min(most_rows, 128U);
     const double rows =
-        std::clamp(kSliceSeconds * rows_done / seconds, 8.0, static_cast<double>(settings.size.y));
+        std::clamp(kSliceSeconds * rows_done / seconds, 8.0, std::max(8.0, static_cast<double>(most_rows)));
     return static_cast<std::uint32_t>(rows);
 }
 
@@ -242,8 +262,7 @@ void Renderer::renderSample() {
         if (push.first_row == 0)
             recordGbuffer(slot.commands, s.programs->gbuffer, s.gbuffer_bindings, s.gpu_scene, *s.history,
                           push);
-        recordPath(slot.commands, s.programs->path, slot.path, *s.history, slot.counters, push,
-                   s.paths_per_thread);
+        s.recordSamples(slot.commands, static_cast<std::size_t>(&slot - s.slots.data()), push);
         if (push.first_row + push.row_count == s.settings.size.y) {
             recordAccumulate(slot.commands, s.programs->accumulate, s.accumulate_bindings, *s.history, push);
             if (s.settings.aovs.any() && push.count_before < kMostLayerSamples) {

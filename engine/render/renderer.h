@@ -41,6 +41,7 @@ struct RenderSettings {
     bool flatten_instances = false;  ///< bake every instance (the reference for two levels)
     bool storage_buffers = false;    ///< fetch BVH and records from storage buffers even where texel buffers
                                      ///< are large enough
+    bool queues = false;  ///< small kernels with queues between them instead of one kernel: the same samples
     std::uint32_t paths_per_thread =
         0;  ///< that a thread follows one after the other; 0: as suits the device
 };

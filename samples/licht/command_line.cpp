@@ -121,6 +121,10 @@ void addExpert(CLI::App& app, RenderSettings& settings) {
                  settings.bvh_quality = parseQuality(option, text);
              })
         ->group(group);
+    app.add_flag(
+           "--queues", settings.queues,
+           "Follow paths by small kernels with queues between them instead of one kernel: the same samples")
+        ->group(group);
     app.add_flag("--flatten-instances", settings.flatten_instances,
                  "Store every instance of a mesh as triangles of its own")
         ->group(group);

@@ -12,8 +12,9 @@ struct PathCounts {
     uint shadow_rays;
 };
 
-// Light that arrives straight from a sampled light and scatters towards wo: one order of T applied to Le.
-vec3 directLight(Surface s, vec3 wo_local, uint dimension, inout PathCounts counts) {
+// Light that would arrive straight from a sampled light and scatter towards wo, one order of T applied to Le; `ray` asks whether it does.
+vec3 directLight(Surface s, vec3 wo_local, uint dimension, out RayQuery ray) {
+    ray = kNoRayQuery;
     LightSample light = sampleLight(s, g_address, dimension);
     if (!light.valid) return vec3(0.0);
     vec3 wi = normalize(light.direction);
@@ -21,8 +22,7 @@ vec3 directLight(Surface s, vec3 wo_local, uint dimension, inout PathCounts coun
     vec3 wi_local = localFromWorld(s.frame, wi);
     vec3 f = bsdfEvaluate(s.bsdf, wo_local, wi_local);
     if (largest(f) <= 0.0) return vec3(0.0);
-    ++counts.shadow_rays;
-    if (occluded(offsetOrigin(s, wi), light.direction, light.t_max)) return vec3(0.0);
+    ray = RayQuery(offsetOrigin(s, wi), light.direction, light.t_max, true);
     float weight = light.delta ? 1.0 : misWeight(light.pdf, bsdfPdf(s.bsdf, wo_local, wi_local));
     return f * light.radiance * (wi_local.z * weight / light.pdf);
 }
@@ -62,18 +62,22 @@ void endInSky(inout Path p) {
     p.alive = false;
 }
 
-// One vertex of the path: what is emitted there, what arrives there from a light, and where the path goes on.
-void extendPath(inout Path p, inout PathCounts counts) {
+// One vertex of the path: what is emitted there (added to its radiance), what arrives there from a light if `light_ray` is not blocked, and where the
+// path goes on. `path_ray` is wanted while the path is alive; the path then waits for what it hits.
+vec3 extendPath(inout Path p, out RayQuery light_ray, out RayQuery path_ray) {
+    light_ray = kNoRayQuery;
+    path_ray = kNoRayQuery;
     // What the surface emits: T^bounce Le. Seen directly it counts whole.
     Surface s = surfaceAt(p.hit, p.wo);
     if (kEmission || kUnlit) p.radiance += p.throughput * s.emission * (p.bounce == 0u ? 1.0 : weightOfSurface(p.scatter_pdf, s, p.from, -p.wo));
     p.alive = p.bounce < frame.bounces;
-    if (!p.alive) return;
+    if (!p.alive) return vec3(0.0);
 
     // Sample a light.
     uint dimension = kDimensionBounce + kDimensionsPerBounce * p.bounce;
     vec3 wo_local = localFromWorld(s.frame, p.wo);
-    if (kLightTriangles || kPunctualLights || kEnvironment) p.radiance += p.throughput * directLight(s, wo_local, dimension, counts);
+    vec3 direct = vec3(0.0);
+    if (kLightTriangles || kPunctualLights || kEnvironment) direct = p.throughput * directLight(s, wo_local, dimension, light_ray);
 
     // Sample the BSDF.
     vec4 u = sample4(g_address, dimension + kDimensionScatter);
@@ -81,23 +85,37 @@ void extendPath(inout Path p, inout PathCounts counts) {
     vec3 wi = worldFromLocal(s.frame, scattered.wi);
     p.throughput *= scattered.weight;
     p.alive = scattered.valid && dot(wi, s.face_normal) > 0.0 && largest(p.throughput) > 0.0;  // below the true surface: absorbed
-    if (!p.alive) return;
 
     // Roulette: end a path that carries little, by a chance that keeps the mean.
-    if (p.bounce >= frame.roulette_start) {
+    if (p.alive && p.bounce >= frame.roulette_start) {
         float survival = min(largest(p.throughput), 1.0);
         p.alive = u.w < survival;
-        if (!p.alive) return;
         p.throughput /= survival;
     }
 
     // Follow the ray.
-    ++counts.bounce_rays;
-    p.hit = traceNearest(offsetOrigin(s, wi), wi);
-    p.wo = -wi;
-    p.from = s.position;
-    p.scatter_pdf = scattered.pdf;
-    ++p.bounce;
+    if (p.alive) {
+        path_ray = RayQuery(offsetOrigin(s, wi), wi, uintBitsToFloat(0x7f800000u), true);
+        p.wo = -wi;
+        p.from = s.position;
+        p.scatter_pdf = scattered.pdf;
+        ++p.bounce;
+    }
+    return direct;
+}
+
+// The same, with both rays traced.
+void extendAndTrace(inout Path p, inout PathCounts counts) {
+    RayQuery light_ray, path_ray;
+    vec3 direct = extendPath(p, light_ray, path_ray);
+    if (light_ray.wanted) {
+        ++counts.shadow_rays;
+        if (!occluded(light_ray.origin, light_ray.direction, light_ray.t_max)) p.radiance += direct;
+    }
+    if (path_ray.wanted) {
+        ++counts.bounce_rays;
+        p.hit = traceNearest(path_ray.origin, path_ray.direction);
+    }
 }
 
 // Radiance along wo of a path whose first vertex is `hit`.
@@ -107,7 +125,7 @@ vec3 pathRadiance(Hit hit, vec3 wo, inout PathCounts counts) {
         if (p.hit.instance == kNoIndex) {
             endInSky(p);
         } else {
-            extendPath(p, counts);
+            extendAndTrace(p, counts);
         }
     }
     return p.radiance;

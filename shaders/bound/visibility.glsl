@@ -62,6 +62,16 @@ vec3 offsetOrigin(vec3 position, vec3 normal, float error_bound, vec3 direction)
 
 vec3 offsetOrigin(Surface s, vec3 direction) { return offsetOrigin(s.position, s.face_normal, s.error_bound, direction); }
 
+// A ray as it is asked for; `wanted` false: it is not.
+struct RayQuery {
+    vec3 origin;
+    vec3 direction;
+    float t_max;
+    bool wanted;
+};
+
+const RayQuery kNoRayQuery = RayQuery(vec3(0.0), vec3(0.0), 0.0, false);
+
 Hit traceNearest(vec3 origin, vec3 direction) { return trace(origin, direction, uintBitsToFloat(0x7f800000u), false); }
 
 // Is anything between origin and origin + t_max * direction?

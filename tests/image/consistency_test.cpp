@@ -202,6 +202,15 @@ TEST_P(EveryScene, StorageBuffersGiveTheSameBits) {
                           renderFilm(scene, scene.cameras[0], storage, 2).mean));
 }
 
+// The same estimator cut where rays are traced.
+TEST_P(EveryScene, QueuesGiveTheSameBits) {
+    const Scene scene = builtin(GetParam());
+    RenderSettings queues = small();
+    queues.queues = true;
+    EXPECT_TRUE(identical(renderFilm(scene, scene.cameras[0], small(), 2).mean,
+                          renderFilm(scene, scene.cameras[0], queues, 2).mean));
+}
+
 // One path a thread is the naive form of several. 7 does not divide the picture's rows.
 TEST_P(EveryScene, PathsOneAfterTheOtherGiveTheSameBits) {
     const Scene scene = builtin(GetParam());

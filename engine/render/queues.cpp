@@ -1,0 +1,175 @@
+#include "licht/render/queues.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "licht/core/error.h"
+#include "licht/shared/queue_records.h"
+#include "licht/spirv/queue_finish_comp.h"
+#include "licht/spirv/queue_prepare_comp.h"
+#include "licht/spirv/queue_shade_comp.h"
+#include "licht/spirv/queue_shadow_comp.h"
+#include "licht/spirv/queue_start_comp.h"
+#include "licht/spirv/queue_trace_comp.h"
+
+namespace licht {
+namespace {
+
+using gpu::Access;
+
+constexpr std::uint32_t kTile = 8;
+constexpr VkBufferUsageFlags kFetched =
+    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
+
+std::uint32_t tiles(std::uint32_t pixels) {
+    return (pixels + kTile - 1) / kTile;
+}
+
+// Not a core feature; lavapipe and all GPUs of the last ten years have it.
+void requireBallots(const gpu::Device& device) {
+    VkPhysicalDeviceSubgroupProperties subgroups{};
+    subgroups.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES;
+    VkPhysicalDeviceProperties2 properties{};
+    properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
+    properties.pNext = &subgroups;
+    vkGetPhysicalDeviceProperties2(device.physicalDevice(), &properties);
+    if ((subgroups.supportedOperations & VK_SUBGROUP_FEATURE_BALLOT_BIT) == 0 ||
+        (subgroups.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) == 0)
+        throw InputError(
+            fmt::format("queues need subgroup ballots, which '{}' does not have", device.report().name));
+}
+
+}  // namespace
+
+Queues::Queues(gpu::Device& device, const gpu::SpecConstants& constants, uvec2 size, std::uint32_t bounces)
+    : bounces_(bounces) {
+    if (bounces > kMostQueueBounces)
+        throw InputError(fmt::format("queues hold paths of at most {} bounces, {} were asked for",
+                                     kMostQueueBounces, bounces));
+    requireBallots(device);
+    const auto compile = [&](const char* name, gpu::Spirv spirv) {
+        return Kernel{gpu::Program::compute(device, name, spirv, constants), {}};
+    };
+    start_ = compile("queue_start", queue_start_comp);
+    prepare_ = compile("queue_prepare", queue_prepare_comp);
+    shade_ = compile("queue_shade", queue_shade_comp);
+    shadow_ = compile("queue_shadow", queue_shadow_comp);
+    trace_ = compile("queue_trace", queue_trace_comp);
+    finish_ = compile("queue_finish", queue_finish_comp);
+
+    // A slice's paths; a dispatch over them stays within the device's workgroups and its buffers.
+    const VkPhysicalDeviceLimits& limits = device.limits();
+    const std::uint64_t tile_row = std::uint64_t{tiles(size.x)} * kTile * kTile;
+    const std::uint64_t most_paths =
+        std::min({std::uint64_t{limits.maxComputeWorkGroupCount[0]} * kQueueGroup,
+                  std::uint64_t{limits.maxTexelBufferElements} / kPathTexels,
+                  std::uint64_t{limits.maxStorageBufferRange} / (kPathTexels * sizeof(uvec4))});
+    const auto tile_rows = static_cast<std::uint32_t>(
+        std::clamp(most_paths / tile_row, std::uint64_t{1}, std::uint64_t{tiles(size.y)}));
+    most_rows_ = tile_rows * kTile;
+    const std::uint64_t paths = tile_row * tile_rows;
+
+    const auto buffer = [&](const char* name, std::uint64_t bytes, VkBufferUsageFlags usage) {
+        return gpu::Buffer(device, name, bytes, usage, gpu::Memory::device);
+    };
+    counts_ = buffer("queue counts", std::uint64_t{kQueueCounts} * (bounces + 2) * sizeof(std::uint32_t),
+                     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+    groups_ = buffer("queue groups", kQueueCounts * sizeof(uvec4),
+                     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT);
+    paths_ = buffer("queue paths", paths * kPathTexels * sizeof(uvec4), kFetched);
+    hits_ = buffer("queue hits", paths * sizeof(std::uint32_t), kFetched);
+    rays_ = buffer("queue rays", paths * kRayTexels * sizeof(uvec4), kFetched);
+    shadows_ = buffer("queue shadows", paths * kShadowTexels * sizeof(uvec4), kFetched);
+    paths_view_ = gpu::TexelView(device, paths_, VK_FORMAT_R32G32B32A32_UINT);
+    hits_view_ = gpu::TexelView(device, hits_, VK_FORMAT_R32_UINT);
+    rays_view_ = gpu::TexelView(device, rays_, VK_FORMAT_R32G32B32A32_UINT);
+    shadows_view_ = gpu::TexelView(device, shadows_, VK_FORMAT_R32G32B32A32_UINT);
+}
+
+void Queues::bind(gpu::Device& device, const std::vector<gpu::BoundResource>& resources,
+                  std::span<const gpu::Buffer* const> counters) {
+    for (Kernel* kernel : {&start_, &prepare_, &shade_, &shadow_, &trace_, &finish_}) {
+        kernel->bindings.clear();
+        for (const gpu::Buffer* own : counters) {
+            std::vector<gpu::BoundResource> all = resources;
+            all.insert(all.end(), {{"Counters", own},
+                                   {"QueueCounts", &counts_},
+                                   {"QueueGroups", &groups_},
+                                   {"QueuePaths", &paths_},
+                                   {"QueueHits", &hits_},
+                                   {"QueueRays", &rays_},
+                                   {"QueueShadows", &shadows_},
+                                   {"queue_path_texels", &paths_view_},
+                                   {"queue_hit_texels", &hits_view_},
+                                   {"queue_ray_texels", &rays_view_},
+                                   {"queue_shadow_texels", &shadows_view_}});
+            kernel->bindings.emplace_back(device, kernel->program, all);
+        }
+    }
+}
+
+void Queues::record(gpu::Commands& commands, const History& history, std::size_t slot,
+                    const gpu::Buffer& counters, const SamplePush& sample) const {
+    QueuePush push{sample.sample_index, sample.first_row, sample.row_count, 0};
+    const std::uint32_t width = history.gbuffer.extent().width;
+    const gpu::Use counts{&counts_, Access::compute_read_write};
+    const gpu::Use counted{&counters, Access::compute_read_write};
+    const gpu::Use paths{&paths_, Access::compute_read_write};
+    const gpu::Use groups{&groups_, Access::indirect_read};
+    const auto overPixels = [&](const char* name, const Kernel& kernel,
+                                std::initializer_list<gpu::Use> uses) {
+        commands.pass(name, uses, [&](const gpu::Pass& pass) {
+            pass.dispatch(kernel.program, kernel.bindings[slot], push, width, push.row_count);
+        });
+    };
+    const auto overQueue = [&](const char* name, const Kernel& kernel, std::uint32_t which,
+                               std::initializer_list<gpu::Use> uses) {
+        commands.pass(name, uses, [&](const gpu::Pass& pass) {
+            pass.dispatchIndirect(kernel.program, kernel.bindings[slot], push, groups_,
+                                  which * sizeof(uvec4));
+        });
+    };
+    const auto prepare = [&] {
+        commands.pass("path prepare", {counts, counted, {&groups_, Access::compute_write}},
+                      [&](const gpu::Pass& pass) {
+                          pass.dispatch(prepare_.program, prepare_.bindings[slot], push, 1);
+                      });
+    };
+
+    commands.pass("path clear", {{&counts_, Access::transfer_write}}, [&](const gpu::Pass& pass) {
+        vkCmdFillBuffer(pass.commandBuffer(), counts_.handle(), 0, VK_WHOLE_SIZE, 0);
+    });
+    overPixels(
+        "path start", start_,
+        {{&history.gbuffer, Access::compute_read}, counts, counted, paths, {&hits_, Access::compute_write}});
+    for (push.bounce = 0; push.bounce <= bounces_; ++push.bounce) {
+        prepare();
+        overQueue("path shade", shade_, kCountHits,
+                  {groups,
+                   counts,
+                   counted,
+                   paths,
+                   {&hits_, Access::compute_read},
+                   {&rays_, Access::compute_write},
+                   {&shadows_, Access::compute_write}});
+        if (push.bounce == bounces_) break;
+        prepare();
+        overQueue("path shadow", shadow_, kCountShadows,
+                  {groups, counts, counted, paths, {&shadows_, Access::compute_read}});
+        overQueue("path trace", trace_, kCountRays,
+                  {groups,
+                   counts,
+                   counted,
+                   paths,
+                   {&rays_, Access::compute_read},
+                   {&hits_, Access::compute_write}});
+    }
+    overPixels("path finish", finish_,
+               {{&history.gbuffer, Access::compute_read},
+                {&history.radiance, Access::compute_write},
+                paths,
+                counted});
+}
+
+}  // namespace licht

@@ -1,0 +1,14 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_KHR_shader_subgroup_basic : require
+#extension GL_KHR_shader_subgroup_ballot : require
+// What the paths found, as a picture.
+#include "bound/queues.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+void main() {
+    uvec2 pixel = pixelOfThread();
+    if (!insideSlice(pixel)) return;
+    storeSample(pixel, radianceOf(pathOfThread()), gbufferHit(ivec2(pixel)).instance != kNoIndex || frame.has_sky != 0u);
+}

@@ -1,0 +1,19 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// How many workgroups the next kernels of a bounce need.
+#include "shared/queue_records.h"
+#include "shared/records.h"
+
+layout(local_size_x = 1) in;
+layout(push_constant) uniform Push { QueuePush push; };
+layout(std430, binding = 80) readonly buffer QueueCounts { uint queue_counts[]; };
+layout(std430, binding = 89) writeonly buffer QueueGroups { uvec4 queue_groups[]; };  // of VkDispatchIndirectCommand, one of kCount... each
+layout(std430, binding = 16) buffer Counters { CounterRecord counters; };
+
+void main() {
+    uint first = kQueueCounts * push.bounce;
+    for (uint i = 0u; i <= kCountShadows; ++i) queue_groups[i] = uvec4((queue_counts[first + i] + kQueueGroup - 1u) / kQueueGroup, 1u, 1u, 0u);
+    // Zero until the paths of this bounce are extended.
+    counters.bounce_rays += queue_counts[first + kCountRays];
+    counters.shadow_rays += queue_counts[first + kCountShadows];
+}

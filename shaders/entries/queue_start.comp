@@ -1,0 +1,25 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_KHR_shader_subgroup_basic : require
+#extension GL_KHR_shader_subgroup_ballot : require
+// A path a pixel, from the G-buffer's hit.
+#include "bound/queues.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+void main() {
+    uvec2 pixel = pixelOfThread();
+    uint path = pathOfThread();
+    bool hits = false;
+    if (insideSlice(pixel)) {
+        Hit hit = gbufferHit(ivec2(pixel));
+        Path p = beginPath(hit, gbufferWo(hit, ivec2(pixel), push.sample_index));
+        hits = hit.instance != kNoIndex;
+        if (!hits) endInSky(p);
+        storeRadiance(path, p.radiance);
+        storePath(path, p, 1u, pixel);  // the rasteriser's ray was the first
+        storeHit(path, hit);
+    }
+    uint place = appendTo(0u, kCountHits, hits);
+    if (hits) queue_hits[place] = path;
+}
