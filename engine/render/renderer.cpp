@@ -43,7 +43,7 @@ Effects effectsOf(const Scene& scene, const RenderSettings& settings) {
 // How many paths a thread follows, one after the other. On a CPU lanes run in lockstep and there are few of
 // them: the next path fills a lane whose path has ended (measured on lavapipe: 1.2 times the samples where
 // paths are of different lengths). A GPU wants threads. Some drivers end a thread's loops after 65,535
-// rounds. A vertex of a path takes 30 to 80, and roulette leaves few paths that go on for long; half of the
+// rounds. A vertex of a path takes some dozens, and roulette leaves few paths that go on for long; half of the
 // rounds are kept in reserve, and a walk that is cut all the same is reported.
 std::uint32_t pathsPerThread(const gpu::Device& device, const RenderSettings& settings) {
     constexpr std::uint32_t kMostPaths = 16;

@@ -125,8 +125,9 @@ struct PunctualLight {
     float range = 0.0F;  ///< metres; 0: unlimited
 };
 
-/// Radiance from infinitely far: a lat-long map in cd/m^2. Row 0 is the zenith (+Y), the centre of the map looks along -Z and
-/// columns grow to the right as seen from inside (shaders/pure/latlong.glsl). A constant sky is a 1x1 map.
+/// Radiance from infinitely far: a lat-long map in cd/m^2. Row 0 is the zenith (+Y), the centre of the map
+/// looks along -Z and columns grow to the right as seen from inside (shaders/pure/latlong.glsl). A constant
+/// sky is a 1x1 map.
 struct Environment {
     std::string name;
     Image radiance;

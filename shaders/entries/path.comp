@@ -21,10 +21,10 @@ void main() {
     }
     barrier();
     PathCounts counts = PathCounts(0u, 0u);
-    // Measured against kernels with queues between them (--queues: queues.cpp), lavapipe, CPU time of a sample, this one = 1, two runs: cornell 0.99 and 1.12 times
-    // as fast, terrain 1.15 and 1.09, gallery 1.22 and 1.21; pipelines 0.3 to 0.4 s longer, 180 bytes a path, five passes a bounce. Of eight lanes 0.80 to
-    // 0.89 are alive at a vertex here (0.54 to 0.83 with one path a thread), all of them in queues; within a walk it is 0.4 to 0.6 in both. So the
-    // megakernel is the default, and queues pay where shading is heavy and samples are many.
+    // Measured against kernels with queues between them (--queues: queues.cpp) on lavapipe: those draw cornell 1.02, terrain 1.18 and gallery 1.33 times as
+    // fast, take 0.3 s more to compile and 164 bytes a path. Of eight lanes 0.80 to 0.89 are alive at a vertex here (0.54 to 0.83 with one path a
+    // thread), all of them in queues; within a walk about half are in both. So the megakernel is the default, and queues pay where shading is heavy
+    // and samples are many.
     // A thread follows a column of paths, the next one as soon as one ends: drivers that run lanes in lockstep would otherwise idle wherever the
     // paths of a group are of different lengths.
     uvec2 pixel = uvec2(gl_GlobalInvocationID.x, push.first_row + gl_WorkGroupID.y * gl_WorkGroupSize.y * kPathsPerThread + gl_LocalInvocationID.y);

@@ -62,6 +62,7 @@ const BadInput kBadInputs[] = {
     {"TooManySamples", {"render", "empty", "--spp", "4294967296"}, "--spp"},
     {"NegativeBounces", {"render", "empty", "--bounces", "-1"}, "--bounces '-1'"},
     {"TooManyBounces", {"render", "empty", "--bounces", "65536"}, "--bounces"},
+    {"QueuesOfTooManyBounces", {"render", "cornell", "--queues", "--bounces", "41"}, "40 bounces"},
     {"NegativeSeed", {"render", "empty", "--seed", "-5"}, "--seed"},
     {"ZeroTime", {"render", "empty", "--time", "0"}, "--time '0'"},
     {"InfiniteTime", {"render", "empty", "--time", "inf"}, "--time"},
