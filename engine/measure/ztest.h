@@ -27,9 +27,12 @@ struct ZTestResult {
     /// are allowed, because the variance of a pixel is itself an estimate.
     static constexpr double kWantedShare = 0.9975;
 
+    /// Blocks and whole alone: for few samples, where the variance of a pixel is too poor an estimate.
+    [[nodiscard]] bool regionsPassed() const {
+        return smallest_block_p > block_threshold && smallest_whole_p > whole_threshold;
+    }
     [[nodiscard]] bool passed(double wanted_share = kWantedShare) const {
-        return pass_share >= wanted_share && smallest_block_p > block_threshold &&
-               smallest_whole_p > whole_threshold;
+        return pass_share >= wanted_share && regionsPassed();
     }
 };
 

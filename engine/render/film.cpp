@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "licht/measure/metrics.h"
+
 namespace licht {
 namespace {
 
@@ -102,13 +104,12 @@ double relativeError(const Film& film) {
     for (std::size_t i = 0; i < count; ++i)
         for (std::size_t c = 0; c < 3; ++c) picture_mean += static_cast<double>(film.mean.texels[4 * i + c]);
     picture_mean /= 3.0 * static_cast<double>(count);
-    const double floor = 0.01 * picture_mean * picture_mean;
     double sum = 0.0;
     for (std::size_t i = 0; i < count; ++i) {
         for (std::size_t c = 0; c < 3; ++c) {
             const double mean = static_cast<double>(film.mean.texels[4 * i + c]);
             const double variance = static_cast<double>(film.variance.texels[3 * i + c]);
-            if (variance > 0.0) sum += variance / (mean * mean + floor);
+            if (variance > 0.0) sum += relativeSquare(variance, mean, picture_mean);
         }
     }
     return std::sqrt(sum / (3.0 * static_cast<double>(count)));

@@ -27,6 +27,9 @@ constexpr std::array kTable{
     Entry{
         {"spheres", "spheres of many sizes under a lamp, of as many triangles as --triangles says", 100'000},
         makeSpheres},
+    Entry{{"lamps", "a hall of some 200 small lamps, more where --triangles says how many triangles shine",
+           3'000},
+          makeLamps},
     Entry{{"meadow", "100,000 plants of three kinds, each kind stored once"}, fixed<makeMeadow>},
     Entry{{"empty", "a camera and nothing else"}, fixed<makeEmpty>},
 };

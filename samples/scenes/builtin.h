@@ -9,7 +9,8 @@
 
 namespace licht {
 
-/// What may be asked of a scene whose triangles are counted. It has at most 1 % more or fewer than asked for.
+/// What may be asked of a scene whose triangles are counted. It has at most 1 % more or fewer than asked for;
+/// of `lamps` those that shine are counted.
 inline constexpr std::uint64_t kFewestTriangles = 1'000;
 inline constexpr std::uint64_t kMostTriangles = 16'000'000;
 
@@ -19,7 +20,7 @@ struct BuiltinScene {
     std::uint64_t triangles = 0;  ///< how many it has unless asked for another count; 0: it takes no count
 };
 
-/// cornell, furnace, gallery, terrain, spheres, meadow, empty.
+/// cornell, furnace, gallery, terrain, spheres, lamps, meadow, empty.
 const std::vector<BuiltinScene>& builtinScenes();
 
 /// The scene of that name, or nullopt. `triangles` is heeded by scenes that take a count; 0: their own.

@@ -14,5 +14,7 @@ Scene makeMeadow();
 /// kFewestTriangles to kMostTriangles, to within 1 %.
 Scene makeTerrain(std::uint64_t triangles);
 Scene makeSpheres(std::uint64_t triangles);
+/// Exactly that many triangles shine.
+Scene makeLamps(std::uint64_t triangles);
 
 }  // namespace licht

@@ -4,6 +4,8 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <map>
+#include <numbers>
 #include <utility>
 
 namespace licht {
@@ -151,6 +153,45 @@ Mesh sphereMesh(std::string name, std::uint32_t material, float radius, std::uin
         return ShapeVertex{
             radius * normal, normal, {fraction(column, segments), 1.0F - fraction(row, rings)}};
     });
+}
+
+Mesh icosphereMesh(std::string name, std::uint32_t material, float radius, std::uint32_t halvings) {
+    // Corners: the cyclic permutations of (0, +-1, +-golden ratio).
+    constexpr float g = std::numbers::phi_v<float>;
+    std::vector<vec3> directions{{0, 1, g},  {0, -1, g},  {0, 1, -g}, {0, -1, -g}, {1, g, 0},  {-1, g, 0},
+                                 {1, -g, 0}, {-1, -g, 0}, {g, 0, 1},  {g, 0, -1},  {-g, 0, 1}, {-g, 0, -1}};
+    std::vector<uvec3> triangles{{0, 1, 8},  {0, 10, 1}, {0, 4, 5},   {0, 8, 4}, {0, 5, 10},
+                                 {1, 7, 6},  {1, 6, 8},  {1, 10, 7},  {2, 9, 3}, {2, 3, 11},
+                                 {2, 5, 4},  {2, 4, 9},  {2, 11, 5},  {3, 6, 7}, {3, 9, 6},
+                                 {3, 7, 11}, {4, 8, 9},  {5, 11, 10}, {6, 9, 8}, {7, 10, 11}};
+    for (vec3& direction : directions) direction = glm::normalize(direction);
+    for (std::uint32_t halving = 0; halving < halvings; ++halving) {
+        std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
+        const auto middle = [&](std::uint32_t a, std::uint32_t b) {
+            const auto [found, fresh] =
+                middles.try_emplace(std::minmax(a, b), static_cast<std::uint32_t>(directions.size()));
+            if (fresh) directions.push_back(glm::normalize(directions[a] + directions[b]));
+            return found->second;
+        };
+        std::vector<uvec3> finer;
+        for (const uvec3& t : triangles) {
+            const uvec3 m{middle(t.x, t.y), middle(t.y, t.z), middle(t.z, t.x)};
+            finer.insert(finer.end(), {{t.x, m.x, m.z}, {t.y, m.y, m.x}, {t.z, m.z, m.y}, m});
+        }
+        triangles = std::move(finer);
+    }
+    Mesh mesh;
+    mesh.name = std::move(name);
+    mesh.material = material;
+    mesh.triangles = std::move(triangles);
+    mesh.uv_sets.resize(1);
+    for (const vec3& direction : directions) {
+        mesh.positions.push_back(radius * direction);
+        mesh.normals.push_back(direction);
+        mesh.uv_sets[0].emplace_back(0.5F - 0.5F * std::atan2(direction.z, direction.x) / kPi,
+                                     std::acos(glm::clamp(direction.y, -1.0F, 1.0F)) / kPi);
+    }
+    return mesh;
 }
 
 Mesh torusMesh(std::string name, std::uint32_t material, float ring_radius, float tube_radius,

@@ -40,6 +40,10 @@ Mesh roundedBoxMesh(std::string name, std::uint32_t material, const vec3& size, 
 Mesh sphereMesh(std::string name, std::uint32_t material, float radius, std::uint32_t segments,
                 std::uint32_t rings);
 
+/// A sphere around the origin of 20 * 4^halvings nearly equal triangles, from the icosahedron; every vertex
+/// is on the sphere, to rounding. u and v as for sphereMesh; they tear where u ends.
+Mesh icosphereMesh(std::string name, std::uint32_t material, float radius, std::uint32_t halvings);
+
 /// A torus around the Y axis; radius of the circle of centres, then of the tube.
 Mesh torusMesh(std::string name, std::uint32_t material, float ring_radius, float tube_radius,
                std::uint32_t segments, std::uint32_t sides);

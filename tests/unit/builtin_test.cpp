@@ -19,61 +19,10 @@
 #include "licht/scene/effects.h"
 #include "licht/scene/scene.h"
 #include "licht/scenes/shapes.h"
+#include "mesh_checks.h"
 
 namespace licht {
 namespace {
-
-using glm::dvec3;
-
-constexpr auto kEpsilon = static_cast<double>(std::numeric_limits<float>::epsilon());
-
-dvec3 corner(const Mesh& mesh, const uvec3& triangle, int k) {
-    return dvec3(mesh.positions[triangle[k]]);
-}
-
-dvec3 areaVector(const Mesh& mesh, const uvec3& triangle) {
-    const dvec3 a = corner(mesh, triangle, 0);
-    return 0.5 * glm::cross(corner(mesh, triangle, 1) - a, corner(mesh, triangle, 2) - a);
-}
-
-double area(const Mesh& mesh) {
-    double sum = 0.0;
-    for (const uvec3& triangle : mesh.triangles) sum += glm::length(areaVector(mesh, triangle));
-    return sum;
-}
-
-/// Of a closed mesh: positive when its faces look outward (divergence theorem).
-double signedVolume(const Mesh& mesh) {
-    double sum = 0.0;
-    for (const uvec3& triangle : mesh.triangles)
-        sum += glm::dot(areaVector(mesh, triangle), corner(mesh, triangle, 0)) / 3.0;
-    return sum;
-}
-
-/// Joins vertices in the same place, bit for bit, and says whether each edge has exactly one triangle on
-/// either side.
-bool isClosed(const Mesh& mesh) {
-    using Point = std::tuple<float, float, float>;
-    std::map<std::pair<Point, Point>, int> edges;
-    for (const uvec3& triangle : mesh.triangles) {
-        for (int k = 0; k < 3; ++k) {
-            const vec3 a = mesh.positions[triangle[k]];
-            const vec3 b = mesh.positions[triangle[(k + 1) % 3]];
-            ++edges[{{a.x, a.y, a.z}, {b.x, b.y, b.z}}];
-        }
-    }
-    return std::all_of(edges.begin(), edges.end(), [&](const auto& edge) {
-        const auto opposite = edges.find({edge.first.second, edge.first.first});
-        return edge.second == 1 && opposite != edges.end() && opposite->second == 1;
-    });
-}
-
-const Mesh& meshNamed(const Scene& scene, std::string_view name) {
-    const auto found =
-        std::find_if(scene.meshes.begin(), scene.meshes.end(), [&](const Mesh& m) { return m.name == name; });
-    EXPECT_NE(found, scene.meshes.end()) << name;
-    return *found;
-}
 
 std::size_t triangleCount(const Scene& scene) {
     std::size_t count = 0;
@@ -126,7 +75,8 @@ TEST_P(Builtin, IsTheSameEachTime) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Builtin,
-                         testing::Values("cornell", "furnace", "gallery", "terrain", "spheres", "empty"),
+                         testing::Values("cornell", "furnace", "gallery", "terrain", "spheres", "lamps",
+                                         "empty"),
                          [](const testing::TestParamInfo<std::string>& scene) { return scene.param; });
 
 TEST(BuiltinTable, NamesEveryScene) {
@@ -136,8 +86,8 @@ TEST(BuiltinTable, NamesEveryScene) {
         EXPECT_FALSE(scene.meaning.empty());
     }
     std::sort(names.begin(), names.end());
-    EXPECT_EQ(names, (std::vector<std::string_view>{"cornell", "empty", "furnace", "gallery", "meadow",
-                                                    "spheres", "terrain"}));
+    EXPECT_EQ(names, (std::vector<std::string_view>{"cornell", "empty", "furnace", "gallery", "lamps",
+                                                    "meadow", "spheres", "terrain"}));
     EXPECT_FALSE(makeBuiltinScene("Cornell"));
     EXPECT_FALSE(makeBuiltinScene(""));
 }
@@ -353,6 +303,8 @@ TEST(Shapes, AreClosedAndLookOutward) {
         roundedBoxMesh("rounded box", 0, vec3(1.0F, 0.7F, 0.4F), 0.15F, 4),
         roundedBoxMesh("box rounded as far as it goes", 0, vec3(1.0F, 0.7F, 0.4F), 0.2F, 4),
         sphereMesh("sphere", 0, 1.0F, 13, 7),
+        icosphereMesh("icosahedron", 0, 0.7F, 0),
+        icosphereMesh("icosphere", 0, 0.7F, 3),
         torusMesh("torus", 0, 1.0F, 0.3F, 17, 9),
         torusKnotMesh("torus knot", 0, TorusKnot{}, 128, 8),
         coneMesh("cylinder", 0, 0.5F, 0.5F, 1.0F, 11),
@@ -396,6 +348,22 @@ TEST(Shapes, HaveTheAreaAndVolumeOfTheirForm) {
     EXPECT_LT(box, round);
     // Its edges have 32 chords a quarter turn, so that what was said of the sphere holds with x = pi / 64.
     EXPECT_GT(box, round * (1.0 - kPiD * kPiD / 4096.0));
+}
+
+TEST(Shapes, HaveEveryCornerOfAnIcosphereOnTheSphere) {
+    for (const std::uint32_t halvings : {0U, 1U, 2U}) {
+        const Mesh mesh = icosphereMesh("icosphere", 0, 0.3F, halvings);
+        const std::size_t faces = std::size_t{20} << (2 * halvings);
+        EXPECT_EQ(mesh.triangles.size(), faces);
+        EXPECT_EQ(mesh.positions.size(), faces / 2 + 2);  // Euler: V = E - F + 2 with E = 3 F / 2
+        // Normalising rounds three times (below), scaling once more.
+        for (const vec3& p : mesh.positions) EXPECT_NEAR(glm::length(dvec3(p)), 0.3, 0.3 * 4.0 * kEpsilon);
+    }
+    // An icosahedron of circumradius R has the edge R / sin(2 pi / 5) and the volume 5 (3 + sqrt 5) / 12
+    // edge^3.
+    const double edge = 1.0 / std::sin(0.4 * std::numbers::pi);
+    EXPECT_NEAR(signedVolume(icosphereMesh("icosahedron", 0, 1.0F, 0)),
+                5.0 * (3.0 + std::sqrt(5.0)) / 12.0 * edge * edge * edge, 16.0 * kEpsilon);
 }
 
 TEST(Shapes, LeadASplineThroughItsPoints) {

@@ -67,6 +67,39 @@ TEST(Metrics, RelMseIgnoresTheExposureAndKnowsBlack) {
     EXPECT_EQ(relMse(filled(2, 2, 3, 1e-3F), black), kInfinite);
 }
 
+TEST(Metrics, OneRelativeSquareForAll) {
+    EXPECT_DOUBLE_EQ(relativeSquare(3.0, 2.0, 10.0), 3.0 / (4.0 + 1.0));
+    EXPECT_EQ(relativeSquare(0.0, 0.0, 0.0), 0.0);
+    EXPECT_EQ(relativeSquare(1.0, 0.0, 0.0), kInfinite);
+}
+
+TEST(Metrics, TrimmedLeavesOutTheWorstThousandth) {
+    // 2500 pixels: the worst two are left out. Every pixel of the reference is 1 in each channel, so a
+    // difference d adds d^2 / 1.01 to a third of its pixel.
+    const Image reference = filled(50, 50, 3, 1.0F);
+    Image test = reference;
+    test.at(3, 4, 0) = 1001.0F;
+    test.at(7, 8, 2) = 101.0F;
+    test.at(49, 49, 1) = 3.0F;
+    test.at(49, 49, 2) = 2.0F;
+    EXPECT_DOUBLE_EQ(trimmedRelMse(test, reference), 5.0 / 3.0 / 1.01 / 2498.0);
+    EXPECT_DOUBLE_EQ(relMse(test, reference), (1e6 + 1e4 + 5.0) / 3.0 / 1.01 / 2500.0);
+    // Below a thousand pixels nothing is left out.
+    Image small = filled(9, 111, 1, 1.0F);
+    const Image small_reference = small;
+    small.at(0, 0, 0) = 2.0F;
+    EXPECT_DOUBLE_EQ(trimmedRelMse(small, small_reference), 1.0 / 1.01 / 999.0);
+}
+
+TEST(Metrics, LargestDifferenceAndMeans) {
+    Image reference(2, 1, 2);
+    reference.texels = {1.0F, -3.0F, 2.0F, 4.0F};
+    Image test(2, 1, 2);
+    test.texels = {1.5F, -3.0F, 2.0F, 2.0F};
+    EXPECT_DOUBLE_EQ(largestDifference(test, reference), 2.0);
+    EXPECT_EQ(channelMeans(test), (std::vector<double>{1.75, -0.5}));
+}
+
 /// A picture of normal noise around a gradient: mean and variance of the mean, of known sigma.
 struct Noisy {
     Image mean;
