@@ -28,6 +28,11 @@ using glm::vec4;
 inline constexpr float kPi = std::numbers::pi_v<float>;
 inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
+/// Whether a transform turns what is counter-clockwise clockwise.
+inline bool mirrors(const mat4& m) {
+    return glm::dot(vec3(m[0]), glm::cross(vec3(m[1]), vec3(m[2]))) < 0.0F;
+}
+
 /// Points origin + t * direction for t in the half-open range [t_min, t_max). The direction need not have
 /// length one.
 struct Ray {

@@ -22,7 +22,7 @@ struct DirectionTransform {
 DirectionTransform directionTransform(const mat4& world_from_object) {
     const mat3 m(world_from_object);
     const mat3 cofactors(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
-    const bool mirrored = glm::dot(m[0], cofactors[0]) < 0.0F;
+    const bool mirrored = mirrors(world_from_object);
     return {m, mirrored ? -cofactors : cofactors, mirrored};
 }
 
@@ -129,7 +129,7 @@ InstanceOrder orderInstances(const Scene& scene, const Effects& effects) {
         const Instancing instancing = chooseInstanced(scene);
         const auto group = [&](uint i) {
             const Instance& instance = scene.instances[i];
-            const bool mirrored = glm::determinant(mat3(instance.world_from_object)) < 0.0F;
+            const bool mirrored = mirrors(instance.world_from_object);
             return instancing.instanced[i] != 0 ? std::tuple(true, instance.mesh, mirrored)
                                                 : std::tuple(false, 0U, false);
         };

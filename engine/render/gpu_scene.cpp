@@ -12,6 +12,7 @@
 #include "licht/colour/transfer.h"
 #include "licht/core/error.h"
 #include "licht/gpu/upload_image.h"
+#include "licht/render/environment_table.h"
 #include "licht/render/flat_geometry.h"
 #include "licht/render/light_table.h"
 
@@ -123,7 +124,7 @@ GpuScene::GpuScene(gpu::Device& device, const Scene& scene, const Effects& effec
                VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE) {
     const InstanceOrder order = orderInstances(scene, effects);
     std::vector<uint> first_light;
-    uploadLights(scene, effects, order, options.sample_surfaces_and_sky, first_light);
+    uploadLights(scene, effects, order, options, first_light);
     const std::uint64_t before = bytes_;
     uploadGeometry(scene, effects, order, first_light, options);
     geometry_bytes_ = bytes_ - before;
@@ -231,13 +232,14 @@ void GpuScene::uploadBvh(const FlatGeometry& geometry, const Options& options) {
 
 // See shaders/bound/scene_data.glsl.
 void GpuScene::viewRecords(bool storage) {
-    const std::array<std::tuple<const char*, const gpu::Buffer*, VkFormat>, 6> records{
+    const std::array<std::tuple<const char*, const gpu::Buffer*, VkFormat>, 7> records{
         {{"vertex_texels", &vertices_, VK_FORMAT_R32G32B32A32_UINT},
          {"triangle_index_texels", &triangle_indices_, VK_FORMAT_R32_UINT},
          {"instance_texels", &instances_, VK_FORMAT_R32G32B32A32_UINT},
          {"material_texels", &materials_, VK_FORMAT_R32G32B32A32_UINT},
          {"light_texels", &lights_, VK_FORMAT_R32G32B32A32_UINT},
-         {"light_alias_texels", &light_alias_, VK_FORMAT_R32G32B32A32_UINT}}};
+         {"light_alias_texels", &light_alias_, VK_FORMAT_R32G32B32A32_UINT},
+         {"light_tree_texels", &light_tree_, VK_FORMAT_R32G32B32A32_UINT}}};
     records_in_storage_ =
         storage || std::any_of(records.begin(), records.end(), [this](const auto& record) {
             const auto& [name, buffer, format] = record;
@@ -301,13 +303,16 @@ void GpuScene::uploadTexels(const Scene& scene) {
 }
 
 void GpuScene::uploadLights(const Scene& scene, const Effects& effects, const InstanceOrder& order,
-                            bool sample_surfaces_and_sky, std::vector<uint>& first_light) {
-    LightTable table = buildLightTable(scene, effects, sample_surfaces_and_sky);
+                            const Options& options, std::vector<uint>& first_light) {
+    LightTable table = buildLightTable(scene, effects, options.sample_surfaces_and_sky, options.lights);
     for (LightRecord& light : table.lights)
-        if (light.kind == kLightTriangle) light.instance = order.device_instance[light.instance];
+        if (isShape(light)) light.instance = order.device_instance[light.instance];
     first_light = std::move(table.first_light);
-    light_count_ = static_cast<uint>(table.lights.size());
-    if (light_count_ > 0) {
+    light_slots_ = static_cast<uint>(table.alias.size());
+    tree_lights_ = table.tree_lights;
+    lights_by_ = tree_lights_ > 0 ? LightChoice::tree : LightChoice::power;
+    if (!table.tree.empty()) light_tree_ = upload("light_tree", table.tree, kFetched);
+    if (light_slots_ > 0) {
         lights_ = upload("lights", table.lights, kFetched);
         light_alias_ = upload("light_alias", table.alias, kFetched);
     }
@@ -316,8 +321,10 @@ void GpuScene::uploadLights(const Scene& scene, const Effects& effects, const In
     has_sky_ = scene.environment ? 1U : 0U;
     const Image black(1, 1, 3);
     const Image& map = present ? scene.environment->radiance : black;
-    const auto limit = static_cast<int>(device_->limits().maxImageDimension2D);
-    if (map.width > limit || map.height > limit)
+    const EnvironmentTable drawn =
+        present ? buildEnvironmentTable(*scene.environment, options.environment_sampling) : EnvironmentTable{};
+    const uint limit = device_->limits().maxImageDimension2D;
+    if (std::max({static_cast<uint>(map.width), static_cast<uint>(map.height), drawn.size.x}) > limit)
         throw InputError(
             fmt::format("environment '{}' has {}x{} texels, and this device's images at most {} a side",
                         scene.environment->name, map.width, map.height, limit));
@@ -329,11 +336,12 @@ void GpuScene::uploadLights(const Scene& scene, const Effects& effects, const In
     environment_map_ = gpu::uploadImage(
         *device_, "environment_map", {environment_size_.x, environment_size_.y},
         VK_FORMAT_R32G32B32A32_SFLOAT, std::as_bytes(std::span(texels)), VK_IMAGE_USAGE_SAMPLED_BIT);
-    if (!present) return;
-    std::vector<AliasRecord> alias = buildEnvironmentTable(*scene.environment);
-    // Black maps have no table; the effect is off for them, unless everything is compiled in.
-    if (alias.empty()) alias.resize(texels.size());
-    environment_alias_ = upload("environment_alias", alias);
+    environment_peak_ = drawn.peak;
+    environment_sampling_ = options.environment_sampling;
+    environment_table_ = gpu::uploadImage(
+        *device_, "environment_table", {drawn.size.x, drawn.size.y},
+        drawn.words == 4 ? VK_FORMAT_R32G32B32A32_UINT : VK_FORMAT_R32_UINT,
+        std::as_bytes(std::span(drawn.texels)), VK_IMAGE_USAGE_SAMPLED_BIT);
 }
 
 std::vector<gpu::BoundResource> GpuScene::resources() const {
@@ -352,7 +360,8 @@ std::vector<gpu::BoundResource> GpuScene::resources() const {
         {"InstanceTransforms", orNone(instance_transforms_)},
         {"Lights", inStorage(lights_)},
         {"LightAlias", inStorage(light_alias_)},
-        {"EnvironmentAlias", orNone(environment_alias_)},
+        {"LightTree", inStorage(light_tree_)},
+        {"environment_table", gpu::SampledImage{&environment_table_, &sampler_}},
         {"environment_map", gpu::SampledImage{&environment_map_, &sampler_}},
     };
     bvh_.addTo(list);
@@ -363,15 +372,19 @@ std::vector<gpu::BoundResource> GpuScene::resources() const {
 }
 
 void GpuScene::describe(FrameRecord& frame) const {
-    frame.light_count = light_count_;
+    frame.light_slots = light_slots_;
+    frame.tree_lights = tree_lights_;
     frame.environment_light = environment_light_;
     frame.environment_size = environment_size_;
+    frame.environment_peak = environment_peak_;
     frame.extra_uv_sets = extra_uv_sets_;
     frame.has_sky = has_sky_;
 }
 
 gpu::SpecConstants GpuScene::constants() const {
     gpu::SpecConstants constants{{kConstantSceneInStorage, records_in_storage_ ? 1U : 0U},
+                                 {kConstantLights, static_cast<uint>(lights_by_)},
+                                 {kConstantEnvironmentSampling, static_cast<uint>(environment_sampling_)},
                                  {kConstantTexturePages, static_cast<uint>(texel_pages_.size())},
                                  {kConstantTextureSlotKinds, slot_kinds_},
                                  {kConstantWideTexels, wide_texels_ ? 1U : 0U},

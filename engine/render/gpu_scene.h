@@ -5,6 +5,7 @@
 #include "licht/gpu/program.h"
 #include "licht/gpu/resource.h"
 #include "licht/render/gpu_bvh.h"
+#include "licht/render/renderer.h"
 #include "licht/scene/effects.h"
 #include "licht/scene/scene.h"
 #include "licht/shared/records.h"
@@ -23,6 +24,8 @@ public:
         bool sample_surfaces_and_sky = true;
         bool storage_buffers = false;
         BvhQuality bvh_quality = BvhQuality::balanced;
+        LightChoice lights = LightChoice::tree;
+        EnvironmentSampling environment_sampling = EnvironmentSampling::alias;
     };
 
     /// Throws InputError, with the numbers, where the scene is larger than the device's buffers may be.
@@ -59,7 +62,7 @@ private:
     void uploadMaterials(const Scene& scene, const Effects& effects);
     void uploadTexels(const Scene& scene);
     void uploadLights(const Scene& scene, const Effects& effects, const InstanceOrder& order,
-                      bool sample_surfaces_and_sky, std::vector<uint>& first_light);
+                      const Options& options, std::vector<uint>& first_light);
     template <typename T>
     gpu::Buffer upload(const char* name, const std::vector<T>& values,
                        VkBufferUsageFlags usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
@@ -67,7 +70,7 @@ private:
     gpu::Device* device_;
     gpu::Buffer none_, vertices_, triangle_indices_, instances_, materials_, tangents_, colors_, extra_uvs_,
         textures_, srgb_table_;
-    gpu::Buffer instance_transforms_, lights_, light_alias_, environment_alias_;
+    gpu::Buffer instance_transforms_, lights_, light_alias_, light_tree_;
     std::vector<gpu::Buffer> texel_pages_;
     GpuBvh bvh_;
     struct RecordView {
@@ -76,12 +79,16 @@ private:
     };
     std::vector<RecordView> record_views_;
     bool records_in_storage_ = false;
-    gpu::Image environment_map_;
+    gpu::Image environment_map_, environment_table_;
     gpu::Sampler sampler_;
     std::vector<Draw> draws_;
     Bounds bounds_;
     uvec2 environment_size_{1, 1};
-    uint light_count_ = 0;
+    float environment_peak_ = 0.0F;
+    EnvironmentSampling environment_sampling_ = EnvironmentSampling::alias;
+    LightChoice lights_by_ = LightChoice::power;
+    uint light_slots_ = 0;
+    uint tree_lights_ = 0;
     uint environment_light_ = kNoIndex;
     uint extra_uv_sets_ = 0;
     uint has_sky_ = 0;

@@ -1,11 +1,17 @@
 #include "licht/render/light_table.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
 #include <numeric>
+#include <optional>
+#include <span>
+#include <utility>
 
 #include "licht/colour/transfer.h"
 #include "licht/render/alias_table.h"
+#include "licht/render/light_tree.h"
 
 namespace licht {
 namespace {
@@ -38,27 +44,153 @@ std::vector<double> emittedLuminance(const Scene& scene) {
     return result;
 }
 
+// Corners in the order in which rays meet them (flat_geometry.cpp).
+std::array<vec3, 3> worldCorners(const Mesh& mesh, const mat4& transform, std::size_t triangle) {
+    uvec3 t = mesh.triangles[triangle];
+    if (mirrors(transform)) std::swap(t.y, t.z);
+    std::array<vec3, 3> corners;
+    for (int c = 0; c < 3; ++c)
+        corners[static_cast<std::size_t>(c)] = vec3(transform * vec4(mesh.positions[t[c]], 1.0F));
+    return corners;
+}
+
+// Two triangles that are a rectangle, as its corner and two edges that turn counter-clockwise: one light
+// instead of two, and its solid angle is sampled without the diagonal.
+struct Rectangle {
+    vec3 corner, first_edge, second_edge;
+};
+
+std::optional<Rectangle> rectangleOf(const std::array<vec3, 3>& a, const std::array<vec3, 3>& b) {
+    // Squareness and closure are asked to within a few roundings of the coordinates.
+    constexpr float kUnits = 8.0F * 0x1p-24F;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const vec3& corner = a[k];
+        const vec3& next = a[(k + 1) % 3];
+        const vec3& last = a[(k + 2) % 3];
+        const vec3 e1 = next - corner;
+        const vec3 e2 = last - corner;
+        const vec3 scale = glm::abs(corner) + glm::abs(e1) + glm::abs(e2);
+        const float slack = kUnits * std::max({scale.x, scale.y, scale.z});
+        if (!(std::abs(glm::dot(e1, e2)) <= slack * (glm::length(e1) + glm::length(e2)))) continue;
+        // The other triangle: last, next and the corner across, in this sense of turning.
+        for (std::size_t j = 0; j < 3; ++j) {
+            const vec3 miss = glm::abs(b[(j + 2) % 3] - (corner + e1 + e2));
+            if (b[j] == last && b[(j + 1) % 3] == next && std::max({miss.x, miss.y, miss.z}) <= slack)
+                return Rectangle{corner, e1, e2};
+        }
+    }
+    return std::nullopt;
+}
+
+void addShape(LightTable& table, std::vector<double>& weights, LightRecord light, double luminance_of_area) {
+    const double area = static_cast<double>(glm::length(glm::cross(light.direction, light.intensity)));
+    table.lights.push_back(light);
+    weights.push_back(std::isfinite(area) ? area * luminance_of_area : 0.0);
+}
+
 void addTriangles(const Scene& scene, LightTable& table, std::vector<double>& weights) {
     const std::vector<double> luminances = emittedLuminance(scene);
     for (uint i = 0; i < scene.instances.size(); ++i) {
         const Instance& instance = scene.instances[i];
         const Mesh& mesh = scene.meshes[instance.mesh];
+        const Material& material = scene.materials[mesh.material];
         if (luminances[mesh.material] <= 0.0) continue;
         table.first_light[i] = static_cast<uint>(table.lights.size());
+        LightRecord light{};
+        light.emission = material.emission;
+        light.instance = i;
+        const uint flags = (material.double_sided ? kLightDoubleSided : 0U) |
+                           (material.emissive_texture.present() ? kLightTextured : 0U);
         for (uint k = 0; k < mesh.triangles.size(); ++k) {
-            glm::dvec3 p[3];
-            for (int c = 0; c < 3; ++c)
-                p[c] = glm::dvec3(
-                    vec3(instance.world_from_object * vec4(mesh.positions[mesh.triangles[k][c]], 1.0F)));
-            LightRecord light{};
-            light.kind = kLightTriangle;
-            light.instance = i;
+            const std::array<vec3, 3> p = worldCorners(mesh, instance.world_from_object, k);
             light.primitive = k;
-            table.lights.push_back(light);
-            weights.push_back(0.5 * glm::length(glm::cross(p[1] - p[0], p[2] - p[0])) *
-                              luminances[mesh.material]);
+            if (k + 1 < mesh.triangles.size() && !material.emissive_texture.present()) {
+                if (const std::optional<Rectangle> r =
+                        rectangleOf(p, worldCorners(mesh, instance.world_from_object, k + 1))) {
+                    light.kind = kLightRectangle | flags;
+                    light.position = r->corner;
+                    light.direction = r->first_edge;
+                    light.intensity = r->second_edge;
+                    addShape(table, weights, light, luminances[mesh.material]);
+                    // A hit on the second half finds the same light; nothing picks it a second time.
+                    addShape(table, weights, light, 0.0);
+                    ++k;
+                    continue;
+                }
+            }
+            light.kind = kLightTriangle | flags;
+            light.position = p[0];
+            light.direction = p[1] - p[0];
+            light.intensity = p[2] - p[0];
+            addShape(table, weights, light, 0.5 * luminances[mesh.material]);
         }
     }
+}
+
+// What stands beside the first half of a rectangle is the same light.
+void copyToSecondHalves(LightTable& table) {
+    for (std::size_t i = 1; i < table.lights.size(); ++i) {
+        const LightRecord& first = table.lights[i - 1];
+        LightRecord& second = table.lights[i];
+        if (isShape(second) && second.kind == first.kind && second.instance == first.instance &&
+            second.primitive == first.primitive)
+            second = first;
+    }
+}
+
+// `weight`: area times luminance of what emits.
+LightBound boundOf(const LightRecord& light, double weight) {
+    LightBound bound;
+    const glm::dvec3 at(light.position);
+    if (isShape(light)) {
+        const glm::dvec3 e1(light.direction);
+        const glm::dvec3 e2(light.intensity);
+        const bool rectangle = (light.kind & kLightKindMask) == kLightRectangle;
+        bound.low = glm::min(at, glm::min(at + e1, at + e2));
+        bound.high = glm::max(at, glm::max(at + e1, at + e2));
+        if (rectangle) {
+            bound.low = glm::min(bound.low, at + e1 + e2);
+            bound.high = glm::max(bound.high, at + e1 + e2);
+        }
+        bound.axis = glm::normalize(glm::cross(e1, e2));
+        bound.emission_angle = 0.5 * std::numbers::pi;
+        bound.two_sided = (light.kind & kLightDoubleSided) != 0;
+        bound.intensity = bound.two_sided ? 0.5 * weight : weight;
+        return bound;
+    }
+    bound.low = bound.high = at;
+    bound.intensity = static_cast<double>(luminance(light.intensity));
+    bound.axis = glm::dvec3(light.direction);
+    if ((light.kind & kLightKindMask) == kLightPoint) {
+        bound.axis = glm::dvec3(0, 0, 1);
+        bound.normals_angle = std::numbers::pi;
+        bound.emission_angle = 0.5 * std::numbers::pi;
+    } else {
+        // The cone ends where scale * cos + offset = 0.
+        bound.emission_angle = std::acos(std::clamp(
+            -static_cast<double>(light.cone_offset) / static_cast<double>(light.cone_scale), -1.0, 1.0));
+    }
+    return bound;
+}
+
+// Gives the lights that are somewhere their trails; true where there are enough of them for a tree.
+bool growTree(LightTable& table, std::span<const double> weights) {
+    std::vector<LightBound> bounds;
+    std::vector<uint> indices;
+    for (uint i = 0; i < weights.size(); ++i) {
+        if (!(weights[i] > 0.0)) continue;
+        bounds.push_back(boundOf(table.lights[i], weights[i]));
+        indices.push_back(i);
+    }
+    if (bounds.size() < 2) return false;
+    LightTree tree = buildLightTree(bounds);
+    for (LightChildRecord& child : tree.children)
+        if ((child.next & kLightLeaf) != 0)
+            child.next = (child.next & ~kLightIndexMask) | indices[child.next & kLightIndexMask];
+    for (std::size_t i = 0; i < indices.size(); ++i) table.lights[indices[i]].trail = tree.trails[i];
+    table.tree = std::move(tree.children);
+    table.tree_lights = static_cast<uint>(weights.size());
+    return true;
 }
 
 LightRecord punctualRecord(const PunctualLight& light) {
@@ -70,6 +202,10 @@ LightRecord punctualRecord(const PunctualLight& light) {
     record.kind = light.kind == PunctualLight::Kind::point  ? kLightPoint
                   : light.kind == PunctualLight::Kind::spot ? kLightSpot
                                                             : kLightDirectional;
+    if (light.kind == PunctualLight::Kind::directional) {
+        const float sine = std::sin(0.5F * light.angular_diameter);
+        record.cone_scale = sine * sine;
+    }
     if (light.kind == PunctualLight::Kind::spot) {
         // KHR_lights_punctual's reference falloff; the smallest width protects the division where both cones
         // are equal.
@@ -98,7 +234,13 @@ double flux(const PunctualLight& light, double radius) {
 
 }  // namespace
 
-LightTable buildLightTable(const Scene& scene, const Effects& effects, bool sample_surfaces_and_sky) {
+bool isShape(const LightRecord& light) {
+    const uint kind = light.kind & kLightKindMask;
+    return kind == kLightTriangle || kind == kLightRectangle;
+}
+
+LightTable buildLightTable(const Scene& scene, const Effects& effects, bool sample_surfaces_and_sky,
+                           LightChoice choice) {
     LightTable table;
     table.first_light.assign(scene.instances.size(), kNoIndex);
     std::vector<double> weights;
@@ -106,13 +248,23 @@ LightTable buildLightTable(const Scene& scene, const Effects& effects, bool samp
     const auto endKind = [&] { kind_ends.push_back(weights.size()); };
 
     if (effects.has(kEffectLightTriangles) && sample_surfaces_and_sky) addTriangles(scene, table, weights);
-    endKind();
-    if (effects.has(kEffectPunctualLights)) {
-        const double radius = std::max(static_cast<double>(sceneBounds(scene).radius()), 1.0);
+    const std::size_t shapes = weights.size();
+    const bool punctual = effects.has(kEffectPunctualLights);
+    const double radius = std::max(static_cast<double>(sceneBounds(scene).radius()), 1.0);
+    const auto addPunctual = [&](bool directional) {
         for (const PunctualLight& light : scene.lights) {
+            if (!punctual || (light.kind == PunctualLight::Kind::directional) != directional) continue;
             table.lights.push_back(punctualRecord(light));
             weights.push_back(flux(light, radius));
         }
+    };
+    addPunctual(false);
+    if (choice == LightChoice::tree && growTree(table, weights)) {
+        endKind();
+        addPunctual(true);
+    } else {
+        kind_ends.push_back(shapes);
+        addPunctual(true);
     }
     endKind();
     if (effects.has(kEffectEnvironment) && sample_surfaces_and_sky && scene.environment) {
@@ -124,42 +276,31 @@ LightTable buildLightTable(const Scene& scene, const Effects& effects, bool samp
     }
     endKind();
 
+    if (choice == LightChoice::uniform)
+        for (double& w : weights) w = w > 0.0 ? 1.0 : 0.0;
     for (std::size_t k = 0; k + 1 < kind_ends.size(); ++k) {
         const auto first = weights.begin() + static_cast<std::ptrdiff_t>(kind_ends[k]);
         const auto last = weights.begin() + static_cast<std::ptrdiff_t>(kind_ends[k + 1]);
         const double sum = std::accumulate(first, last, 0.0);
         if (sum > 0.0) std::for_each(first, last, [sum](double& w) { w /= sum; });
     }
-    table.alias = buildAliasTable(weights);
-    if (table.alias.empty())
-        return LightTable{{}, {}, std::vector<uint>(scene.instances.size(), kNoIndex), kNoIndex};
-    for (std::size_t i = 0; i < table.lights.size(); ++i) table.lights[i].pmf = table.alias[i].pmf;
-    return table;
-}
-
-std::vector<AliasRecord> buildEnvironmentTable(const Environment& environment) {
-    const Image& map = environment.radiance;
-    const auto texel = [&map](int x, int y) {
-        const int wrapped = (x + map.width) % map.width;
-        const int clamped = std::clamp(y, 0, map.height - 1);
-        return static_cast<double>(luminance(
-            vec3(map.at(wrapped, clamped, 0), map.at(wrapped, clamped, 1), map.at(wrapped, clamped, 2))));
-    };
-    std::vector<double> weights;
-    weights.reserve(static_cast<std::size_t>(map.width) * static_cast<std::size_t>(map.height));
-    for (int y = 0; y < map.height; ++y) {
-        const double upper = std::cos(std::numbers::pi * y / map.height);
-        const double lower = std::cos(std::numbers::pi * (y + 1) / map.height);
-        for (int x = 0; x < map.width; ++x) {
-            // The integral of the bilinear interpolant over its texel: 1/8, 6/8, 1/8 along each axis.
-            double sum = 0.0;
-            for (int j = -1; j <= 1; ++j)
-                for (int i = -1; i <= 1; ++i)
-                    sum += texel(x + i, y + j) * (i == 0 ? 6.0 : 1.0) * (j == 0 ? 6.0 : 1.0) / 64.0;
-            weights.push_back(sum * (upper - lower));
-        }
+    // A tree is one column, whose weight is that of a kind.
+    std::vector<double> columns;
+    if (table.tree_lights > 0) columns.push_back(1.0);
+    for (std::size_t i = table.tree_lights; i < weights.size(); ++i) columns.push_back(weights[i]);
+    table.alias = buildAliasTable(columns);
+    if (table.alias.empty()) {
+        LightTable none;
+        none.first_light.assign(scene.instances.size(), kNoIndex);
+        return none;
     }
-    return buildAliasTable(weights);
+    for (std::size_t i = 0; i < table.lights.size(); ++i) {
+        const bool in_tree = i < table.tree_lights;
+        const std::size_t column = table.tree_lights == 0 ? i : in_tree ? 0 : i - table.tree_lights + 1;
+        table.lights[i].pmf = in_tree && !(weights[i] > 0.0) ? 0.0F : table.alias[column].pmf;
+    }
+    copyToSecondHalves(table);
+    return table;
 }
 
 }  // namespace licht

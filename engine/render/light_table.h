@@ -1,6 +1,7 @@
 #pragma once
 #include <vector>
 
+#include "licht/render/renderer.h"
 #include "licht/scene/effects.h"
 #include "licht/scene/scene.h"
 #include "licht/shared/records.h"
@@ -9,19 +10,24 @@ namespace licht {
 
 /// Everything that next event estimation can pick.
 struct LightTable {
-    std::vector<LightRecord> lights;
-    std::vector<AliasRecord> alias;  ///< as long as lights
-    std::vector<uint> first_light;   ///< per scene instance: light of its primitive 0, or kNoIndex
+    std::vector<LightRecord>
+        lights;  ///< triangles (two for a rectangle), points and spots; then directional; then the sky
+    std::vector<AliasRecord>
+        alias;  ///< over the lights or, with a tree, over the tree and each light outside
+    std::vector<LightChildRecord> tree;  ///< empty: none
+    uint tree_lights = 0;                ///< the first so many lights are picked by the tree
+    std::vector<uint> first_light;       ///< per scene instance: light of its primitive 0, or kNoIndex
     uint environment_light = kNoIndex;
 };
 
-/// The kinds of light (triangles, punctual, environment) share the picks equally, because their powers say
-/// nothing of how much of each reaches a given place; within a kind the share is by power.
-/// `sample_surfaces_and_sky` false: only lights that scattering cannot find.
-LightTable buildLightTable(const Scene& scene, const Effects& effects, bool sample_surfaces_and_sky);
+/// A triangle or rectangle that emits.
+bool isShape(const LightRecord& light);
 
-/// The environment's table over its texels: mean of the bilinear radiance over each texel, times its solid
-/// angle.
-std::vector<AliasRecord> buildEnvironmentTable(const Environment& environment);
+/// The kinds of light (triangles, punctual, environment; or the tree, directional, environment) share the
+/// picks equally, because their powers say nothing of how much of each reaches a given place; within a kind
+/// the share is by the choice. A tree takes at least two lights that are somewhere; with fewer the choice is
+/// by power. `sample_surfaces_and_sky` false: only lights that scattering cannot find.
+LightTable buildLightTable(const Scene& scene, const Effects& effects, bool sample_surfaces_and_sky,
+                           LightChoice choice);
 
 }  // namespace licht

@@ -25,7 +25,7 @@ const std::array<EffectInfo, kEffectCount>& effectTable() {
          "lights,light_alias", "path"},
         {kEffectPunctualLights, "punctualLights", "point, spot and directional lights", "lights,light_alias",
          "path"},
-        {kEffectEnvironment, "environment", "light from infinitely far", "environment_map,environment_alias",
+        {kEffectEnvironment, "environment", "light from infinitely far", "environment_map,environment_table",
          "path"},
         {kEffectUnlit, "unlit", "surfaces that show their colour without light", "", "path"},
         {kEffectIridescence, "iridescence", "thin films colour what reflects", "", "path"},

@@ -122,7 +122,8 @@ struct PunctualLight {
     vec3 direction{0, 0, -1};  ///< world, unit, the way the light travels (spot, directional)
     float inner_cone = 0.0F;   ///< radians
     float outer_cone = 0.7853982F;
-    float range = 0.0F;  ///< metres; 0: unlimited
+    float range = 0.0F;             ///< metres; 0: unlimited
+    float angular_diameter = 0.0F;  ///< radians that a directional light fills, at most pi; 0: sharp shadows
 };
 
 /// Radiance from infinitely far: a lat-long map in cd/m^2. Row 0 is the zenith (+Y), the centre of the map

@@ -1,13 +1,19 @@
-// Radiance from infinitely far, stored as a latitude-longitude map.
+// Radiance from infinitely far, stored as a latitude-longitude map, and directions drawn by it.
 #ifndef LICHT_BOUND_ENVIRONMENT_GLSL
 #define LICHT_BOUND_ENVIRONMENT_GLSL
 
 #include "bound/scene.glsl"
 #include "pure/latlong.glsl"
-#include "pure/random.glsl"
+#include "pure/sequence.glsl"
+
+layout(constant_id = 35) const uint kEnvironmentSampling = kEnvironmentAlias;  // kConstantEnvironmentSampling
 
 layout(binding = 8) uniform sampler2D environment_map;
-layout(std430, binding = 7) readonly buffer EnvironmentAlias { AliasRecord environment_alias[]; };
+layout(binding = 7) uniform usampler2D environment_table;  // engine/render/environment_table.h
+
+// Directions that rejection tried, and those that were asked for.
+uint g_environment_tries = 0u;
+uint g_environment_samples = 0u;
 
 // Bilinear by hand: linear filtering of fp32 images is optional in Vulkan, and its weights have few bits.
 vec3 environmentRadiance(vec3 direction) {
@@ -23,41 +29,123 @@ vec3 environmentRadiance(vec3 direction) {
                mix(texelFetch(environment_map, ivec2(left, bottom), 0).rgb, texelFetch(environment_map, ivec2(right, bottom), 0).rgb, f.x), f.y);
 }
 
-// cos(theta) of the upper edge of a row, without sin or cos of an arbitrary angle.
-float rowEdge(uint row) {
-    return row == 0u ? 1.0 : row == frame.environment_size.y ? -1.0 : unitCircle(0.5 * float(row) / float(frame.environment_size.y)).x;
+// Solid angle of one texel of that row, 2 pi / width times the difference of two cosines as a product, which loses nothing near the poles.
+float texelSolidAngle(uint row) {
+    uvec2 size = frame.environment_size;
+    uint from_pole = min(row, size.y - 1u - row);
+    return 4.0 * kPi / float(size.x) * unitCircle(0.5 * (float(from_pole) + 0.5) / float(size.y)).y * unitCircle(0.25 / float(size.y)).y;
 }
 
-// Solid angle of one texel of that row.
-float texelSolidAngle(uint row) { return 2.0 * kPi / float(frame.environment_size.x) * (rowEdge(row) - rowEdge(row + 1u)); }
+// 1 - cos(theta) of the upper edge of a row, down to the equator and a little beyond.
+float rowEdge(uint row) {
+    float s = unitCircle(0.25 * float(row) / float(frame.environment_size.y)).y;
+    return 2.0 * s * s;
+}
+
+// Uniform by solid angle within a texel; v grows downwards.
+vec3 directionInTexel(uvec2 texel, float u, float v) {
+    uvec2 size = frame.environment_size;
+    bool south = 2u * texel.y >= size.y;
+    uint row = south ? size.y - 1u - texel.y : texel.y;
+    float below_pole = mix(rowEdge(row), rowEdge(row + 1u), south ? 1.0 - v : v);
+    float sine = sqrt(below_pole * (2.0 - below_pole));
+    return directionFromLatlong((float(texel.x) + u) / float(size.x), south ? below_pole - 1.0 : 1.0 - below_pole, sine);
+}
+
+uvec2 texelOf(vec3 direction) {
+    uvec2 size = frame.environment_size;
+    return min(uvec2(latlongFromDirection(direction) * vec2(size)), size - 1u);
+}
+
+// Inversion: the share of a texel is that of its row times its own within it, both as steps between ends.
+uint endOf(uvec2 texel) { return texelFetch(environment_table, ivec2(texel), 0).x; }
+
+uint startOf(uvec2 texel, bool of_row) {
+    if (of_row) return texel.y > 0u ? endOf(texel - uvec2(0u, 1u)) : 0u;
+    return texel.x > 0u ? endOf(texel - uvec2(1u, 0u)) : 0u;
+}
+
+uvec2 rowEnd(uvec2 texel) { return uvec2(frame.environment_size.x, texel.y); }
+
+float texelShare(uvec2 texel) {
+    if (kEnvironmentSampling != kEnvironmentInversion) return uintBitsToFloat(texelFetch(environment_table, ivec2(texel), 0).z);
+    float column = float(endOf(texel) - startOf(texel, false)), row = float(endOf(rowEnd(texel)) - startOf(rowEnd(texel), true));
+    return row / float(kEnvironmentUnits) * (column / float(kEnvironmentUnits));
+}
+
+float pdfEnvironment(vec3 direction) {
+    uvec2 texel = texelOf(direction);
+    return texelShare(texel) / texelSolidAngle(texel.y);
+}
 
 struct EnvironmentSample {
     vec3 direction;
     float pdf;  // solid angle
 };
 
-// A texel by its share of the power, then a direction uniform in its solid angle.
-EnvironmentSample sampleEnvironment(uvec4 bits) {
-    uint texel, unused;
+// A texel by its share, in constant time, then a direction in it.
+EnvironmentSample sampleByAlias(uvec4 bits) {
+    uvec2 size = frame.environment_size;
+    uint i, unused;
     // 24-bit numbers could not reach every texel of a large map: the whole word picks the column.
-    umulExtended(bits.x, frame.environment_size.x * frame.environment_size.y, texel, unused);
+    umulExtended(bits.x, size.x * size.y, i, unused);
     vec4 u = uniformFromBits(bits);
-    AliasRecord a = environment_alias[texel];
-    if (u.y >= a.threshold) {
-        texel = a.alias;
-        a = environment_alias[texel];
-    }
-    uvec2 at = uvec2(texel % frame.environment_size.x, texel / frame.environment_size.x);
-    float y = mix(rowEdge(at.y + 1u), rowEdge(at.y), u.z);
-    float longitude = (float(at.x) + u.w) / float(frame.environment_size.x);
-    return EnvironmentSample(directionFromLatlong(longitude, y), a.pmf / texelSolidAngle(at.y));
+    uvec4 a = texelFetch(environment_table, ivec2(i % size.x, i / size.x), 0);
+    if (u.y >= uintBitsToFloat(a.x)) i = a.y;
+    uvec2 texel = uvec2(i % size.x, i / size.x);
+    return EnvironmentSample(directionInTexel(texel, u.w, u.z), texelShare(texel) / texelSolidAngle(texel.y));
 }
 
-float pdfEnvironment(vec3 direction) {
-    uvec2 size = frame.environment_size;
-    vec2 uv = latlongFromDirection(direction);
-    uvec2 at = min(uvec2(uv * vec2(size)), size - 1u);
-    return environment_alias[at.y * size.x + at.x].pmf / texelSolidAngle(at.y);
+// How many of `count` ends from `texel` on along `step` are at most `at`; never all of them.
+uint endsUpTo(uvec2 texel, uvec2 along, uint count, uint at) {
+    uint passed = 0u;
+    for (uint width = 1u << uint(findMSB(count)); width > 0u; width >>= 1u) {
+        uint next = passed + width;
+        if (next < count && endOf(texel + (next - 1u) * along) <= at) passed = next;
+    }
+    return passed;
+}
+
+// Where `at` lies between two ends, in [0,1); `below` is what comes after its last digit.
+float placeBetween(uint start, uint end, uint at, float below) {
+    return min((float(at - start) + below) / float(max(end - start, 1u)), 0.99999994);
+}
+
+// The row by the distribution function of all rows, the column by that of the row. Neighbours on the square of (x, y) stay neighbours on the map, so that
+// evenly spread numbers give evenly spread directions.
+EnvironmentSample sampleByInversion(uvec4 bits) {
+    uvec2 at = bits.yx >> 1u;
+    vec2 below = uniformFromBits(bits).zw;
+    uvec2 texel = uvec2(0u);
+    texel.y = endsUpTo(rowEnd(texel), uvec2(0u, 1u), frame.environment_size.y, at.y);
+    texel.x = endsUpTo(texel, uvec2(1u, 0u), frame.environment_size.x, at.x);
+    float v = placeBetween(startOf(rowEnd(texel), true), endOf(rowEnd(texel)), at.y, below.y);
+    float u = placeBetween(startOf(texel, false), endOf(texel), at.x, below.x);
+    return EnvironmentSample(directionInTexel(texel, u, v), texelShare(texel) / texelSolidAngle(texel.y));
+}
+
+// A direction uniform over the sphere, kept with a chance in proportion to its density; the mean number of tries is 4 pi times the largest density. Maps with
+// a small sun take thousands of tries: after the last one the alias table answers, and because it has the same density, that of the whole is the same.
+EnvironmentSample sampleByRejection(uvec4 bits) {
+    for (uint i = 0u; i < kEnvironmentMostTries; ++i) {
+        vec4 u = uniformFromBits(bits);
+        float y = 1.0 - 2.0 * u.y;
+        EnvironmentSample e;
+        e.direction = directionFromLatlong(u.x, y, 2.0 * sqrt(u.y * (1.0 - u.y)));
+        e.pdf = pdfEnvironment(e.direction);
+        ++g_environment_tries;
+        if (u.z * frame.environment_peak < e.pdf) return e;
+        bits = hash4(bits);
+    }
+    return sampleByAlias(bits);
+}
+
+// All four words are used.
+EnvironmentSample sampleEnvironment(uvec4 bits) {
+    ++g_environment_samples;
+    if (kEnvironmentSampling == kEnvironmentInversion) return sampleByInversion(bits);
+    if (kEnvironmentSampling == kEnvironmentRejection) return sampleByRejection(bits);
+    return sampleByAlias(bits);
 }
 
 #endif

@@ -1,10 +1,14 @@
-// The light table: emissive triangles, punctual lights and the environment, one of them picked by an alias table.
-// Three verbs: sample a light as seen from a point, its density for a hit that scattering found, and what it sends.
+// The lights: emissive triangles and rectangles, punctual lights and the environment. Three verbs: sample a light as seen from a point, its density
+// for a hit that scattering found, and what it sends.
 #ifndef LICHT_BOUND_LIGHT_GLSL
 #define LICHT_BOUND_LIGHT_GLSL
 
 #include "bound/environment.glsl"
+#include "bound/light_tree.glsl"
 #include "bound/visibility.glsl"
+#include "pure/spherical.glsl"
+
+layout(constant_id = 34) const uint kLights = kLightsPower;  // kConstantLights
 
 layout(binding = 54) uniform usamplerBuffer light_texels;
 layout(binding = 55) uniform usamplerBuffer light_alias_texels;
@@ -13,10 +17,11 @@ layout(std430, binding = 6) readonly buffer LightAlias { AliasRecord light_alias
 
 LightRecord lightAt(uint i) {
     if (kSceneInStorage) return lights[i];
-    int first = int(4u * i);
-    vec4 b = uintBitsToFloat(texelFetch(light_texels, first + 1)), c = uintBitsToFloat(texelFetch(light_texels, first + 2));
-    uvec4 a = texelFetch(light_texels, first), d = texelFetch(light_texels, first + 3);
-    return LightRecord(uintBitsToFloat(a.xyz), a.w, b.xyz, b.w, c.xyz, c.w, d.x, d.y, uintBitsToFloat(d.z), uintBitsToFloat(d.w));
+    int first = int(kLightTexels * i);
+    vec4 a = uintBitsToFloat(texelFetch(light_texels, first)), b = uintBitsToFloat(texelFetch(light_texels, first + 1));
+    vec4 c = uintBitsToFloat(texelFetch(light_texels, first + 2)), d = uintBitsToFloat(texelFetch(light_texels, first + 3));
+    uvec4 e = texelFetch(light_texels, first + 4);
+    return LightRecord(a.xyz, floatBitsToUint(a.w), b.xyz, b.w, c.xyz, c.w, d.xyz, d.w, e.x, e.y, uintBitsToFloat(e.z), e.w);
 }
 
 AliasRecord lightAliasAt(uint i) {
@@ -36,39 +41,124 @@ struct LightSample {
 
 const LightSample kNoLight = LightSample(vec3(0.0), 0.0, vec3(0.0), 0.0, false, false);
 
-uint pickLight(vec2 u) {
-    uint i = min(uint(u.x * float(frame.light_count)), frame.light_count - 1u);
-    return u.y < lightAliasAt(i).threshold ? i : lightAliasAt(i).alias;
+// Who asks for lights: the choice among them depends on where the surface is and whither it faces.
+struct LightAsker {
+    vec3 position;  // world
+    uint normal;    // shading normal, packed, so that a path can carry it
+};
+
+LightAsker askerAt(Surface s) { return LightAsker(s.position, packOctahedral(s.frame.normal)); }
+
+struct LightPick {
+    uint light;  // kNoIndex: none
+    float pmf;
+};
+
+// A column of the alias table; the first one may stand for the tree.
+LightPick pickLight(LightAsker asker, vec2 u) {
+    float at = u.x * float(frame.light_slots);
+    uint slot = min(uint(at), frame.light_slots - 1u);
+    AliasRecord column = lightAliasAt(slot);
+    bool keep = u.y < column.threshold;
+    if (!keep) slot = column.alias;
+    if (kLights != kLightsTree) return LightPick(slot, 0.0);
+    if (slot > 0u) return LightPick(frame.tree_lights + slot - 1u, 1.0);
+    // What the two numbers have not yet decided is uniform again.
+    float rest = keep ? u.y / column.threshold : (u.y - column.threshold) / (1.0 - column.threshold);
+    TreePick pick = pickInTree(asker.position, unpackOctahedral(asker.normal), vec2(fract(at), min(rest, 0.99999994)));
+    return LightPick(pick.light, pick.pmf);
 }
 
-// Density of hitting a triangle light at `s` from `distance2` away (squared metres), by solid angle: pmf / area * r^2 / cos.
-float pdfTriangleLight(Surface s, float distance2, vec3 direction_to_light) {
-    float cos_light = abs(dot(s.face_normal, direction_to_light));
-    return lightAt(s.light).pmf * distance2 / (s.area * cos_light);
+// Probability of picking light `index` from there.
+float pmfOfLight(LightRecord light, uint index, LightAsker asker) {
+    if (kLights != kLightsTree || index >= frame.tree_lights || light.pmf <= 0.0) return light.pmf;
+    return light.pmf * pmfInTree(asker.position, unpackOctahedral(asker.normal), light.trail);
 }
 
-LightSample sampleTriangleLight(LightRecord light, Surface from, vec2 u) {
-    vec2 b = sampleTriangle(u);
-    vec3 weights = vec3(1.0 - b.x - b.y, b);
+uint kindOf(LightRecord light) { return light.kind & kLightKindMask; }
+
+// Solid angle of a triangle or rectangle, where sampling by it is sound; 0 where the area is sampled instead. Sampling and looking up ask alike.
+float sampledSolidAngle(LightRecord light, vec3 from) {
+    vec3 corner = light.position - from;
+    float omega = kindOf(light) == kLightRectangle ? solidAngleRectangle(corner, light.direction, light.intensity)
+                                                   : solidAngleTriangle(corner, corner + light.direction, corner + light.intensity);
+    return omega > kSmallestSolidAngle && omega < kLargestSolidAngle ? omega : 0.0;
+}
+
+// Twice the area of a triangle, the area of a rectangle, along the normal.
+vec3 areaVector(LightRecord light) { return cross(light.direction, light.intensity); }
+
+// Density of the point at `d` from the asker, by solid angle, once the light is picked. d2: |d|^2.
+float pdfOnShape(LightRecord light, float omega, vec3 d, float d2) {
+    if (omega > 0.0) return 1.0 / omega;
+    // Area to solid angle: r^2 / (A cos) = r^3 / |A . d|.
+    float projected = abs(dot(areaVector(light), d)) * (kindOf(light) == kLightRectangle ? 1.0 : 0.5);
+    return d2 * sqrt(d2) / projected;
+}
+
+// Density, by solid angle, with which light sampling at `asker` would have found the emitting point `s`; 0: never.
+float pdfOfSurface(Surface s, LightAsker asker, vec3 direction_to_light) {
+    if (!kLightTriangles || s.light == kNoIndex) return 0.0;
+    LightRecord light = lightAt(s.light);
+    vec3 d = s.position - asker.position;
+    return pmfOfLight(light, s.light, asker) * pdfOnShape(light, sampledSolidAngle(light, asker.position), d, dot(d, d));
+}
+
+float pdfOfSky(vec3 direction) {
+    return frame.environment_light == kNoIndex ? 0.0 : lightAt(frame.environment_light).pmf * pdfEnvironment(direction);
+}
+
+// What the light emits at a point of its plane, seen from the front or the back.
+vec3 shapeEmission(LightRecord light, vec3 point, bool front) {
+    if (!front && (light.kind & kLightDoubleSided) == 0u) return vec3(0.0);
+    if (!kTextures || (light.kind & kLightTextured) == 0u) return light.emission;
+    vec3 n = areaVector(light);
+    vec3 at = point - light.position;
+    float inverse = 1.0 / dot(n, n);
+    vec2 b = clamp(vec2(dot(cross(at, light.intensity), n), dot(cross(light.direction, at), n)) * inverse, 0.0, 1.0);
     uvec3 v = triangleVertices(light.instance, light.primitive);
-    vec3 p0 = vertexAt(v.x).position, p1 = vertexAt(v.y).position, p2 = vertexAt(v.z).position;
-    vec3 position = weights.x * p0 + weights.y * p1 + weights.z * p2;
-    vec3 to_light = position - from.position;
-    float distance2 = dot(to_light, to_light);
-    vec3 direction = to_light * inversesqrt(distance2);
-    Face face = faceOf(kBaked, p0, p1, p2);  // what emits is never instanced
-    float cos_light = -dot(face.normal, direction);
-    vec3 radiance = emissionOf(materialAt(instanceAt(light.instance).material), v, weights, cos_light > 0.0);
-    float pdf = light.pmf * distance2 / (face.area * abs(cos_light));
-    bool valid = distance2 > 0.0 && largest(radiance) > 0.0 && pdf > 0.0 && !isinf(pdf);
-    vec3 target = offsetOrigin(position, face.normal, face.error_bound, -direction);
-    return LightSample(target - offsetOrigin(from, direction), 1.0, radiance, pdf, false, valid);
+    return emissionOf(materialAt(instanceAt(light.instance).material), v, vec3(1.0 - b.x - b.y, b), true);
+}
+
+LightSample sampleShape(LightRecord light, float pmf, Surface from, vec2 u) {
+    bool rectangle = kindOf(light) == kLightRectangle;
+    vec3 corner = light.position - from.position;
+    vec3 area = areaVector(light);
+    float omega = sampledSolidAngle(light, from.position);
+    vec3 d;
+    if (omega > 0.0) {
+        if (rectangle) {
+            d = sampleRectangleSolidAngle(corner, light.direction, light.intensity, u);
+        } else {
+            vec3 w = sampleTriangleSolidAngle(corner, corner + light.direction, corner + light.intensity, u);
+            d = w * (dot(corner, area) / dot(w, area));
+        }
+    } else {
+        vec2 b = rectangle ? u : sampleTriangle(u);
+        d = corner + b.x * light.direction + b.y * light.intensity;
+    }
+    float d2 = dot(d, d);
+    vec3 radiance = shapeEmission(light, from.position + d, dot(area, d) < 0.0);
+    float pdf = pmf * pdfOnShape(light, omega, d, d2);
+    bool valid = d2 > 0.0 && largest(radiance) > 0.0 && pdf > 0.0 && !isinf(pdf);
+    // The ray ends before the light's plane by as much as both may be off.
+    vec3 normal = area * inversesqrt(dot(area, area));
+    vec3 extent = abs(light.position) + abs(light.direction) + abs(light.intensity);
+    float error_bound = kPositionUnits * (dot(abs(normal), extent) + largest(max(abs(light.direction), abs(light.intensity))));
+    vec3 target = offsetOrigin(from.position + d, normal, error_bound, -d);
+    return LightSample(target - offsetOrigin(from, d), 1.0, radiance, pdf, false, valid);
+}
+
+// A directional light sends E over the cone of directions that it fills: radiance E / (pi sin^2), so that a surface that faces it gets E.
+LightSample sampleDirectional(LightRecord light, float pmf, vec2 u) {
+    const float kInfinity = uintBitsToFloat(0x7f800000u);
+    if (light.cone_scale <= 0.0) return LightSample(-light.direction, kInfinity, light.intensity, pmf, true, true);
+    vec3 direction = worldFromLocal(frameFromNormal(-light.direction), sampleCone(light.cone_scale, u));
+    return LightSample(direction, kInfinity, light.intensity / (kPi * light.cone_scale), pmf / solidAngleCone(light.cone_scale), true, true);
 }
 
 // KHR_lights_punctual: inverse square, an optional range window, and a spot's cone.
-LightSample samplePunctualLight(LightRecord light, Surface from) {
-    if (light.kind == kLightDirectional)
-        return LightSample(-light.direction, uintBitsToFloat(0x7f800000u), light.intensity, light.pmf, true, true);
+LightSample samplePunctualLight(LightRecord light, float pmf, Surface from) {
     vec3 to_light = light.position - from.position;
     float distance2 = dot(to_light, to_light);
     if (!(distance2 > 0.0)) return kNoLight;
@@ -78,24 +168,29 @@ LightSample samplePunctualLight(LightRecord light, Surface from) {
         float x = distance2 / (light.range * light.range);
         irradiance *= clamp(1.0 - x * x, 0.0, 1.0);
     }
-    if (light.kind == kLightSpot) {
+    if (kindOf(light) == kLightSpot) {
         float cone = clamp(dot(light.direction, -direction) * light.cone_scale + light.cone_offset, 0.0, 1.0);
         irradiance *= cone * cone;
     }
     if (largest(irradiance) <= 0.0) return kNoLight;
-    return LightSample(light.position - offsetOrigin(from, direction), 1.0, irradiance, light.pmf, true, true);
+    return LightSample(light.position - offsetOrigin(from, direction), 1.0, irradiance, pmf, true, true);
 }
 
 LightSample sampleLight(Surface from, SampleAddress address, uint dimension) {
-    if (frame.light_count == 0u) return kNoLight;
-    vec4 u = sample4(address, dimension + kDimensionLight);
-    LightRecord light = lightAt(pickLight(u.xy));
-    if (kLightTriangles && light.kind == kLightTriangle) return sampleTriangleLight(light, from, u.zw);
-    if (kEnvironment && light.kind == kLightEnvironment) {
+    if (frame.light_slots == 0u) return kNoLight;
+    vec4 u = sample4(address, dimension + kDimensionLight);  // xy: where on the light; zw: which one
+    LightPick pick = pickLight(askerAt(from), u.zw);
+    if (pick.light == kNoIndex) return kNoLight;
+    LightRecord light = lightAt(pick.light);
+    float pmf = kLights == kLightsTree ? light.pmf * pick.pmf : light.pmf;
+    uint kind = kindOf(light);
+    if (kLightTriangles && (kind == kLightTriangle || kind == kLightRectangle)) return sampleShape(light, pmf, from, u.xy);
+    if (kEnvironment && kind == kLightEnvironment) {
         EnvironmentSample e = sampleEnvironment(sampleBits4(address, dimension + kDimensionEnvironment));
-        return LightSample(e.direction, uintBitsToFloat(0x7f800000u), environmentRadiance(e.direction), light.pmf * e.pdf, false, e.pdf > 0.0);
+        return LightSample(e.direction, uintBitsToFloat(0x7f800000u), environmentRadiance(e.direction), pmf * e.pdf, false, e.pdf > 0.0);
     }
-    if (kPunctualLights) return samplePunctualLight(light, from);
+    if (kPunctualLights && kind == kLightDirectional) return sampleDirectional(light, pmf, u.xy);
+    if (kPunctualLights) return samplePunctualLight(light, pmf, from);
     return kNoLight;
 }
 

@@ -29,8 +29,9 @@ struct SampleAddress {
 // Sides of a picture stay below 2^16, so one word names the pixel.
 uint pixelWord(SampleAddress a) { return a.pixel.x | (a.pixel.y << 16u); }
 
-uvec4 sampleBits4(SampleAddress a, uint dimension) { return hash4(uvec4(pixelWord(a), a.index, dimension, a.seed)); }
+// Independent numbers; sequences that fill the square evenly are in sobol.glsl.
+uvec4 randomBits4(SampleAddress a, uint dimension) { return hash4(uvec4(pixelWord(a), a.index, dimension, a.seed)); }
 
-vec4 sample4(SampleAddress a, uint dimension) { return uniformFromBits(sampleBits4(a, dimension)); }
+vec4 random4(SampleAddress a, uint dimension) { return uniformFromBits(randomBits4(a, dimension)); }
 
 #endif

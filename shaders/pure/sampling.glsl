@@ -2,6 +2,8 @@
 #ifndef LICHT_PURE_SAMPLING_GLSL
 #define LICHT_PURE_SAMPLING_GLSL
 
+#include "pure/random.glsl"
+
 const float kPi = 3.14159265358979323846;
 const float kInvPi = 0.31830988618379067154;
 
@@ -35,6 +37,50 @@ vec3 sampleUniformSphere(vec2 u) {
     return vec3(2.0 * sqrt(max(u.x * (1.0 - u.x), 0.0)) * unitCircle(u.y), z);
 }
 
+// Uniform by solid angle around +Z, density 1 / (2 pi).
+vec3 sampleUniformHemisphere(vec2 u) { return vec3(sqrt(max(u.x * (2.0 - u.x), 0.0)) * unitCircle(u.y), 1.0 - u.x); }
+
+// Uniform in the unit ball.
+vec3 sampleBall(vec3 u) { return pow(u.z, 1.0 / 3.0) * sampleUniformSphere(u.xy); }
+
+// The same by rejection (von Neumann 1951, Various Techniques Used in Connection with Random Digits): points of the square or cube around the shape until
+// one is inside. It takes 4 / pi and 6 / pi tries on average; what the last one refuses, 2e-11 and 5e-11 of all, gets the closed form. `bits` seeds the
+// tries, the first of which is these numbers themselves. Evenly spread numbers are torn apart by it, so that the renderer uses the closed forms.
+const uint kDiscTries = 16u;
+const uint kBallTries = 32u;
+
+vec2 sampleDiscByRejection(uvec4 bits, out uint tries) {
+    for (tries = 1u; tries <= kDiscTries; ++tries) {
+        vec2 p = 2.0 * uniformFromBits(bits).xy - 1.0;
+        if (dot(p, p) < 1.0) return p;
+        bits = hash4(bits);
+    }
+    tries = kDiscTries;
+    return sampleDisc(uniformFromBits(bits).xy);
+}
+
+vec3 sampleBallByRejection(uvec4 bits, out uint tries) {
+    for (tries = 1u; tries <= kBallTries; ++tries) {
+        vec3 p = 2.0 * uniformFromBits(bits).xyz - 1.0;
+        if (dot(p, p) < 1.0) return p;
+        bits = hash4(bits);
+    }
+    tries = kBallTries;
+    return sampleBall(uniformFromBits(bits).xyz);
+}
+
+// Uniform by solid angle: the ball's point pushed out to the sphere, and up. A length that leaves nothing of a direction (one point in 2^60) points up.
+vec3 sampleHemisphereByRejection(uvec4 bits, out uint tries) {
+    vec3 p = sampleBallByRejection(bits, tries);
+    float length2 = dot(p, p);
+    return length2 > 0.0 ? vec3(p.xy, abs(p.z)) * inversesqrt(length2) : vec3(0.0, 0.0, 1.0);
+}
+
+vec3 sampleCosineHemisphereByRejection(uvec4 bits, out uint tries) {
+    vec2 d = sampleDiscByRejection(bits, tries);
+    return vec3(d, sqrt(1.0 - dot(d, d)));
+}
+
 // Barycentrics (b1, b2), uniform by area. Heitz 2019, A Low-Distortion Map Between Triangle and Square.
 vec2 sampleTriangle(vec2 u) {
     if (u.y > u.x) {
@@ -45,9 +91,12 @@ vec2 sampleTriangle(vec2 u) {
     return vec2(u.x - b2, b2);
 }
 
-// Power heuristic with exponent two for one sample of each technique. Veach 1997, Robust Monte Carlo Methods for Light Transport Simulation.
+// MIS weights for one sample of each of two techniques. Veach 1997, Robust Monte Carlo Methods for Light Transport Simulation.
 // Written by the ratio, so that large densities do not overflow.
-float misWeight(float pdf, float other_pdf) {
+float balanceWeight(float pdf, float other_pdf) { return 1.0 / (1.0 + other_pdf / pdf); }
+
+// With exponent two.
+float powerWeight(float pdf, float other_pdf) {
     float ratio = other_pdf / pdf;
     return 1.0 / (1.0 + ratio * ratio);
 }

@@ -118,19 +118,50 @@ LICHT_CONSTANT uint kLightPoint = 1u;
 LICHT_CONSTANT uint kLightSpot = 2u;
 LICHT_CONSTANT uint kLightDirectional = 3u;
 LICHT_CONSTANT uint kLightEnvironment = 4u;
+LICHT_CONSTANT uint kLightRectangle = 5u;
+LICHT_CONSTANT uint kLightKindMask = 0xffu;
+LICHT_CONSTANT uint kLightDoubleSided = 0x100u;  // flags beside the kind
+LICHT_CONSTANT uint kLightTextured = 0x200u;
 
 struct LightRecord {
-    vec3 position;     // punctual: world
-    uint kind;
-    vec3 direction;    // the way the light travels, unit
+    vec3 position;     // punctual: world; triangle, rectangle: the first corner
+    uint kind;         // and flags
+    vec3 direction;    // the way the light travels, unit; triangle, rectangle: the edge from the first corner to the second, metres
     float range;       // metres; 0: unlimited
-    vec3 intensity;    // cd, or lux when directional
-    float cone_scale;  // spot: smooth factor = clamp(cos * scale + offset, 0, 1)^2
+    vec3 intensity;    // cd, or lux when directional; triangle, rectangle: the edge from the first corner to the last
+    float cone_scale;  // spot: smooth factor = clamp(cos * scale + offset, 0, 1)^2; directional: sine squared of the half angle it fills
+    vec3 emission;     // triangle, rectangle: cd/m^2, before a texture
+    float cone_offset;
     uint instance;     // triangle: its hit record
     uint primitive;
-    float pmf;         // probability that the table picks this light
-    float cone_offset;
+    float pmf;         // probability that the table picks this light, or the tree that it is in
+    uint trail;        // in the tree: which child at which level, kLightTrailBits each
 };
+LICHT_CONSTANT uint kLightTexels = 5u;
+
+// The light tree: four children a node. Two levels of a binary tree ask as many clusters for their importance and know less of them.
+LICHT_CONSTANT uint kLightChildren = 4u;
+LICHT_CONSTANT uint kLightTrailBits = 2u;
+
+// A child, whose intensity is 0 where there is none: a bounding box, a cone of normals, and how far from a normal light leaves.
+struct LightChildRecord {
+    vec3 centre;         // world
+    float intensity;     // cd, of all lights below towards where they are brightest
+    vec3 half_size;
+    float cos_normals;
+    vec3 axis;           // unit
+    float cos_emission;
+    float sin_normals;
+    uint next;           // index of a node or, with kLightLeaf, of a light; flags
+    uint reserved0;
+    uint reserved1;
+};
+LICHT_CONSTANT uint kLightChildTexels = 4u;
+LICHT_CONSTANT uint kLightLeaf = 0x80000000u;
+LICHT_CONSTANT uint kLightTwoSided = 0x40000000u;
+LICHT_CONSTANT uint kLightIndexMask = 0x3fffffffu;
+// Added to cosines, so that rounding and the packing of normals (3e-5) never hide a light that is barely seen.
+LICHT_CONSTANT float kLightSlack = 1e-4F;
 
 // One column of an alias table (Walker 1974; Vose 1991): keep this entry when u < threshold, else take `alias`.
 struct AliasRecord {
@@ -159,7 +190,7 @@ struct ViewRecord {
 struct FrameRecord {
     ViewRecord view;
     ViewRecord previous_view;
-    uint light_count;
+    uint light_slots;        // columns of the alias table over lights: one a light, or one for all in the tree and one for each that is not
     uint environment_light;  // index in the light table; kNoIndex: none
     uvec2 environment_size;
     uint bounces;
@@ -167,9 +198,9 @@ struct FrameRecord {
     uint seed;
     uint extra_uv_sets;
     uint has_sky;         // 1: what hits nothing sees the environment, so the picture is opaque there
-    uint reserved0;
-    uint reserved1;
-    uint reserved2;
+    float clamp_limit;    // cd/m^2, of what one indirect contribution may add to a pixel; read where kConstantClamp is set
+    uint tree_lights;     // so many of the lights, the first ones, are picked by the tree; 0: none
+    float environment_peak;   // largest density of a direction to it, 1/sr
 };
 
 // Push constants of the passes that draw samples.
@@ -178,6 +209,13 @@ struct SamplePush {
     uint count_before;    // samples already in the history
     uint first_row;       // of this slice
     uint row_count;
+};
+
+// A tile of pixels that are sampled alike.
+LICHT_CONSTANT uint kAdaptiveTileSide = 8u;
+struct AdaptiveTileRecord {
+    uint end;     // frames from this one on pass it by
+    uint behind;  // how far the numbers of its samples lag behind the frames'
 };
 
 // The first dimensions of a sample belong to the camera, then each bounce takes its own few.
@@ -189,8 +227,38 @@ LICHT_CONSTANT uint kDimensionEnvironment = 2u;
 LICHT_CONSTANT uint kDimensionsPerBounce = 3u;
 LICHT_CONSTANT uint kDimensionAlpha = 0x80000000u; // + rays traced so far: coverage of partly transparent surfaces
 
+// How direct light is found: lights and scattering combined, scattering alone (the integral over the hemisphere), or lights alone (over surfaces).
+LICHT_CONSTANT uint kDirectMis = 0u;
+LICHT_CONSTANT uint kDirectHemisphere = 1u;
+LICHT_CONSTANT uint kDirectArea = 2u;
+
+// How one light is picked of many.
+LICHT_CONSTANT uint kLightsTree = 0u;
+LICHT_CONSTANT uint kLightsPower = 1u;
+LICHT_CONSTANT uint kLightsUniform = 2u;
+
+LICHT_CONSTANT uint kEnvironmentAlias = 0u;
+LICHT_CONSTANT uint kEnvironmentInversion = 1u;
+LICHT_CONSTANT uint kEnvironmentRejection = 2u;
+LICHT_CONSTANT uint kEnvironmentUnits = 0x80000000u;  // the whole of a distribution function
+LICHT_CONSTANT uint kEnvironmentMostTries = 32u;
+
+LICHT_CONSTANT uint kSamplerSobol = 0u;
+LICHT_CONSTANT uint kSamplerBlue = 1u;
+LICHT_CONSTANT uint kSamplerRandom = 2u;
+
 // Specialisation constants beside the effects.
-LICHT_CONSTANT uint kConstantDirectMis = 32u;
+LICHT_CONSTANT uint kConstantDirect = 32u;
+LICHT_CONSTANT uint kConstantMisBalance = 33u;
+LICHT_CONSTANT uint kConstantLights = 34u;
+LICHT_CONSTANT uint kConstantEnvironmentSampling = 35u;
+LICHT_CONSTANT uint kConstantSampler = 36u;
+LICHT_CONSTANT uint kConstantBlueBits = 37u;      // log2 of the samples whose error is blue together
+LICHT_CONSTANT uint kConstantClamp = 38u;
+LICHT_CONSTANT uint kConstantRegularise = 39u;
+LICHT_CONSTANT uint kConstantOrders = 40u;        // layers of the orders T^i Le: 0 none, else bounces + 1
+LICHT_CONSTANT uint kConstantAdaptive = 41u;      // pixels are sampled where a mask says so
+LICHT_CONSTANT uint kLostTile = 0u;               // of the sums beside the picture, where the clamp is on; the orders come behind it
 LICHT_CONSTANT uint kConstantBvhInStorage = 64u;
 LICHT_CONSTANT uint kConstantBvhStackSize = 65u;
 LICHT_CONSTANT uint kConstantTexturePages = 66u;
@@ -209,6 +277,8 @@ struct CounterRecord {
     uint shadow_rays;
     uint nonfinite_samples;
     uint cut_walks;         // samples in which the driver ended a traversal before it was done
+    uint environment_samples;  // directions drawn by rejection, and how many were tried for them
+    uint environment_tries;
 };
 
 struct TonemapPush {

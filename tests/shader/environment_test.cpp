@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -12,7 +14,7 @@
 #include "kernel.h"
 #include "licht/colour/transfer.h"
 #include "licht/gpu/upload_image.h"
-#include "licht/render/light_table.h"
+#include "licht/render/environment_table.h"
 #include "licht/shared/records.h"
 #include "licht/spirv/environment_comp.h"
 
@@ -67,11 +69,20 @@ std::vector<Environment> environments() {
     all.push_back(odd);
     return all;
 }
-constexpr int kTests = 7;  // chi-square tests in this file: one an environment
+Environment singleTexel(float value) {
+    Environment environment = filled("single texel", 64, 32, 0.0F);
+    set(environment, 20, 10, value);
+    return environment;
+}
+
+constexpr std::array kMethods{EnvironmentSampling::alias, EnvironmentSampling::inversion,
+                              EnvironmentSampling::rejection};
+constexpr int kTests = 3 * 7;  // chi-square tests in this file: one a method and environment
 
 struct Answer {
     vec4 direction_pdf;
     vec4 radiance_pdf;  // looked up
+    vec4 tries;
 };
 
 struct Push {
@@ -92,29 +103,42 @@ Place placeOf(const dvec3& w) {
             kErrorU + 4.0 * kUnit / std::max(horizontal, 1e-30)};
 }
 
+std::string nameOf(EnvironmentSampling how) {
+    return how == EnvironmentSampling::alias       ? "alias"
+           : how == EnvironmentSampling::inversion ? "inversion"
+                                                   : "rejection";
+}
+
 class OnDevice {
 public:
-    explicit OnDevice(const Environment& environment)
-        : table_(buildEnvironmentTable(environment)),
-          sampler_(gpu::testDevice(), VK_FILTER_NEAREST, VK_SAMPLER_ADDRESS_MODE_REPEAT,
+    /// sampler: kSampler...
+    OnDevice(const Environment& environment, EnvironmentSampling how, std::uint32_t sampler = kSamplerRandom)
+        : kernel_("environment", environment_comp,
+                  {{kConstantEnvironmentSampling, static_cast<std::uint32_t>(how)},
+                   {kConstantSampler, sampler},
+                   {kConstantBlueBits, 0U}}),
+          nearest_(gpu::testDevice(), VK_FILTER_NEAREST, VK_SAMPLER_ADDRESS_MODE_REPEAT,
                    VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE) {
+        gpu::Device& device = gpu::testDevice();
         const Image& map = environment.radiance;
+        const EnvironmentTable table = buildEnvironmentTable(environment, how);
         FrameRecord frame{};
         frame.environment_size = uvec2(map.width, map.height);
+        frame.environment_peak = table.peak;
         frame.seed = 7;
-        frame_ = gpu::uploadBuffer(gpu::testDevice(), "FrameBlock", std::span<const FrameRecord>(&frame, 1),
+        frame_ = gpu::uploadBuffer(device, "FrameBlock", std::span<const FrameRecord>(&frame, 1),
                                    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
-        alias_ = gpu::uploadBuffer(gpu::testDevice(), "EnvironmentAlias",
-                                   std::span<const AliasRecord>(table_), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
         std::vector<vec4> texels;
         for (std::size_t i = 0; i < map.texels.size(); i += 3)
             texels.emplace_back(map.texels[i], map.texels[i + 1], map.texels[i + 2], 0.0F);
         map_ = gpu::uploadImage(
-            gpu::testDevice(), "environment_map", {frame.environment_size.x, frame.environment_size.y},
+            device, "environment_map", {frame.environment_size.x, frame.environment_size.y},
             VK_FORMAT_R32G32B32A32_SFLOAT, std::as_bytes(std::span(texels)), VK_IMAGE_USAGE_SAMPLED_BIT);
+        table_ = gpu::uploadImage(device, "environment_table", {table.size.x, table.size.y},
+                                  table.words == 4 ? VK_FORMAT_R32G32B32A32_UINT : VK_FORMAT_R32_UINT,
+                                  std::as_bytes(std::span(table.texels)), VK_IMAGE_USAGE_SAMPLED_BIT);
     }
 
-    [[nodiscard]] const std::vector<AliasRecord>& table() const { return table_; }
     std::vector<Answer> sample() { return run({kCount, 0}, {vec4(0.0F)}); }
     std::vector<Answer> lookUp(const std::vector<vec4>& directions) {
         return run({static_cast<std::uint32_t>(directions.size()), 1}, directions);
@@ -124,16 +148,15 @@ private:
     std::vector<Answer> run(const Push& push, const std::vector<vec4>& directions) {
         return kernel_.run<Answer>(push.count, push.count, push, directions,
                                    {{"FrameBlock", &frame_},
-                                    {"EnvironmentAlias", &alias_},
-                                    {"environment_map", gpu::SampledImage{&map_, &sampler_}}});
+                                    {"environment_table", gpu::SampledImage{&table_, &nearest_}},
+                                    {"environment_map", gpu::SampledImage{&map_, &nearest_}}});
     }
 
-    test::Kernel kernel_{"environment", environment_comp};
-    std::vector<AliasRecord> table_;
+    test::Kernel kernel_;
     gpu::Buffer frame_;
-    gpu::Buffer alias_;
     gpu::Image map_;
-    gpu::Sampler sampler_;
+    gpu::Image table_;
+    gpu::Sampler nearest_;
 };
 
 /// Bilinear, as the shader interpolates; x and y in texels.
@@ -153,7 +176,12 @@ double radiance(const Image& map, double x, double y) {
     return sum;
 }
 
-TEST(Environment, theTableFollowsTheRadiance) {
+double solidAngle(std::size_t row, double width, double height) {
+    return 4.0 * kPi / width * std::sin(kPi * (static_cast<double>(row) + 0.5) / height) *
+           std::sin(0.5 * kPi / height);
+}
+
+TEST(EnvironmentTable, followsTheRadiance) {
     for (const Environment& environment : environments()) {
         const Image& map = environment.radiance;
         std::vector<double> power;
@@ -171,25 +199,106 @@ TEST(Environment, theTableFollowsTheRadiance) {
                 total += power.back();
             }
         }
-        const std::vector<AliasRecord> table = buildEnvironmentTable(environment);
-        ASSERT_EQ(table.size(), power.size());
+        const std::vector<double> shares = environmentShares(environment);
+        ASSERT_EQ(shares.size(), power.size());
         // Luminance in fp32 rounds three products and two sums.
         for (std::size_t i = 0; i < power.size(); ++i)
-            EXPECT_NEAR(d(table[i].pmf), power[i] / total, 8.0 * kUnit * power[i] / total)
+            EXPECT_NEAR(shares[i], power[i] / total, 8.0 * kUnit * power[i] / total)
                 << environment.name << " " << i;
     }
 }
 
-TEST(Environment, directionsFollowTheTable) {
+/// What a table makes of the shares.
+std::vector<double> tableShares(const EnvironmentTable& table, std::size_t width, std::size_t height) {
+    std::vector<double> shares;
+    for (std::size_t i = 0; i < width * height; ++i) {
+        if (table.words == 4) {
+            shares.push_back(d(std::bit_cast<float>(table.texels[4 * i + 2])));
+            continue;
+        }
+        const std::size_t at = i + i / width;  // a column more
+        const std::size_t row = (i / width) * (width + 1) + width;
+        const uint column = table.texels[at] - (i % width > 0 ? table.texels[at - 1] : 0U);
+        const uint rows = table.texels[row] - (row > width ? table.texels[row - width - 1] : 0U);
+        shares.push_back(std::ldexp(std::ldexp(static_cast<double>(column) * rows, -31), -31));
+    }
+    return shares;
+}
+
+// A constant map as large as maps are: sums in fp32 would stop at 16,777,216 texels, and the shares follow
+// the solid angle alone.
+TEST(EnvironmentTable, constantMapIsTheSolidAngle) {
+    constexpr std::size_t kWidth = 4200;
+    constexpr std::size_t kHeight = 4000;
+    const Environment environment = filled("constant", kWidth, kHeight, 1.0F);
+    const EnvironmentTable alias = buildEnvironmentTable(environment, EnvironmentSampling::alias);
+    const EnvironmentTable ends = buildEnvironmentTable(environment, EnvironmentSampling::inversion);
+    EXPECT_NEAR(d(alias.peak), 0.25 / kPi, 1e-6);
+    EXPECT_EQ(alias.peak, ends.peak);
+    const std::vector<double> by_alias = tableShares(alias, kWidth, kHeight);
+    const std::vector<double> by_ends = tableShares(ends, kWidth, kHeight);
+    double alias_sum = 0.0;
+    double ends_sum = 0.0;
+    std::size_t wrong = 0;
+    for (std::size_t i = 0; i < by_alias.size(); ++i) {
+        const double share = solidAngle(i / kWidth, kWidth, kHeight) / (4.0 * kPi);
+        alias_sum += by_alias[i];
+        ends_sum += by_ends[i];
+        if (!(std::abs(by_alias[i] - share) <= 1e-6 * share)) ++wrong;
+        // An end is rounded to a unit of its row, and that to one of the whole.
+        const double row = share * kWidth;
+        if (!(std::abs(by_ends[i] - share) <= 0x1p-30 * row + 0x1p-30 / kWidth)) ++wrong;
+    }
+    EXPECT_EQ(wrong, 0U);
+    EXPECT_NEAR(alias_sum, 1.0, 1e-6);
+    EXPECT_NEAR(ends_sum, 1.0, 1e-12);
+}
+
+TEST(EnvironmentTable, blackMapsHaveNoShares) {
+    const Environment black = filled("black", 16, 8, 0.0F);
+    for (const EnvironmentSampling how : kMethods) {
+        const EnvironmentTable table = buildEnvironmentTable(black, how);
+        EXPECT_EQ(table.peak, 0.0F);
+        for (const double share : tableShares(table, 16, 8)) ASSERT_EQ(share, 0.0) << nameOf(how);
+        for (const Answer& answer : OnDevice(black, how).sample()) {
+            ASSERT_EQ(answer.direction_pdf.w, 0.0F) << nameOf(how);
+            ASSERT_EQ(answer.radiance_pdf, vec4(0.0F)) << nameOf(how);
+        }
+    }
+}
+
+// What shines can be found, however dark it is beside the rest, and nothing else is.
+TEST(EnvironmentTable, everyTexelWithLightHasAShare) {
+    Environment environment = filled("sun", 256, 128, 1e-12F);
+    set(environment, 200, 100, 1e6F);
+    set(environment, 7, 0, 0.0F);
+    for (const EnvironmentSampling how : {EnvironmentSampling::alias, EnvironmentSampling::inversion})
+        for (const double share : tableShares(buildEnvironmentTable(environment, how), 256, 128))
+            ASSERT_GT(share, 0.0) << nameOf(how);
+    const Environment texel = singleTexel(1.0F);
+    const std::vector<double> shares = environmentShares(texel);
+    for (const EnvironmentSampling how : kMethods) {
+        const std::vector<double> kept =
+            tableShares(buildEnvironmentTable(texel, how), static_cast<std::size_t>(texel.radiance.width),
+                        shares.size() / static_cast<std::size_t>(texel.radiance.width));
+        for (std::size_t i = 0; i < shares.size(); ++i)
+            ASSERT_EQ(kept[i] > 0.0, shares[i] > 0.0) << nameOf(how);
+    }
+}
+
+class EveryMethod : public testing::TestWithParam<EnvironmentSampling> {};
+
+TEST_P(EveryMethod, directionsFollowTheTable) {
     for (const Environment& environment : environments()) {
         const auto width = static_cast<std::size_t>(environment.radiance.width);
         const auto height = static_cast<std::size_t>(environment.radiance.height);
-        OnDevice device(environment);
+        OnDevice device(environment, GetParam());
+        const std::vector<double> shares =
+            tableShares(buildEnvironmentTable(environment, GetParam()), width, height);
         // Four cells a texel: within it directions are uniform by solid angle.
         std::vector<std::uint64_t> counts(4 * width * height);
         std::vector<double> expected(counts.size());
-        for (std::size_t i = 0; i < expected.size(); ++i)
-            expected[i] = 0.25 * kCount * d(device.table()[i / 4].pmf);
+        for (std::size_t i = 0; i < expected.size(); ++i) expected[i] = 0.25 * kCount * shares[i / 4];
         for (const Answer& answer : device.sample()) {
             const dvec3 w(answer.direction_pdf);
             ASSERT_NEAR(glm::length(w), 1.0, 1e-6);
@@ -208,11 +317,11 @@ TEST(Environment, directionsFollowTheTable) {
     }
 }
 
-TEST(Environment, bothDensitiesAgree) {
+TEST_P(EveryMethod, bothDensitiesAgree) {
     for (const Environment& environment : environments()) {
         const auto width = static_cast<double>(environment.radiance.width);
         const auto height = static_cast<double>(environment.radiance.height);
-        OnDevice device(environment);
+        OnDevice device(environment, GetParam());
         std::size_t at_edges = 0;
         double inverse = 0.0;
         double inverse2 = 0.0;
@@ -235,19 +344,17 @@ TEST(Environment, bothDensitiesAgree) {
         EXPECT_LT(at_edges, kCount / 1000) << environment.name;
         // The mean of 1 / pdf is the solid angle that can be sampled.
         double lit = 0.0;
-        for (std::size_t i = 0; i < device.table().size(); ++i) {
-            const double row = std::floor(static_cast<double>(i) / width);
-            if (device.table()[i].pmf > 0.0F)
-                lit +=
-                    2.0 * kPi / width * (std::cos(kPi * row / height) - std::cos(kPi * (row + 1.0) / height));
-        }
+        const std::vector<double> shares = environmentShares(environment);
+        for (std::size_t i = 0; i < shares.size(); ++i)
+            if (shares[i] > 0.0)
+                lit += solidAngle(i / static_cast<std::size_t>(environment.radiance.width), width, height);
         const double mean = inverse / kCount;
         const double variance = std::max(inverse2 / kCount - mean * mean, 0.0);
         EXPECT_NEAR(mean, lit, 4.5 * std::sqrt(variance / kCount) + 8.0 * kUnit * lit) << environment.name;
     }
 }
 
-TEST(Environment, densityIntegratesToOneAndRadianceIsBilinear) {
+TEST_P(EveryMethod, densityIntegratesToOneAndRadianceIsBilinear) {
     for (const Environment& environment : environments()) {
         const Image& map = environment.radiance;
         constexpr int kInner = 4;
@@ -266,7 +373,7 @@ TEST(Environment, densityIntegratesToOneAndRadianceIsBilinear) {
                 }
             }
         }
-        OnDevice device(environment);
+        OnDevice device(environment, GetParam());
         const std::vector<Answer> answers = device.lookUp(directions);
         float largest = 0.0F;
         for (const float value : map.texels) largest = std::max(largest, value);
@@ -281,12 +388,111 @@ TEST(Environment, densityIntegratesToOneAndRadianceIsBilinear) {
                         (moved + 8.0 * kUnit) * d(largest))
                 << environment.name << " " << i;
         }
-        // The density is constant over a texel, so the sum is exact but for rounding of pmf and solid angle,
-        // of which the difference of two edges' cosines near a pole loses most: u over the smallest, 1 -
-        // cos(pi / height).
-        const double smallest = 1.0 - std::cos(kPi / map.height);
-        EXPECT_NEAR(integral, 1.0, 4.0 * kUnit / smallest + 8.0 * kUnit) << environment.name;
+        // The density is constant over a texel, so the sum is exact but for rounding: of share and solid
+        // angle, whose two sines and three products are each good to 3 u.
+        EXPECT_NEAR(integral, 1.0, 16.0 * kUnit) << environment.name;
     }
+}
+
+/// Mean and its variance of L / pdf times max(normal . w, 0).
+struct Irradiance {
+    double mean = 0.0;
+    double variance = 0.0;
+};
+Irradiance irradiance(const std::vector<Answer>& answers, const dvec3& normal) {
+    double sum = 0.0;
+    double squares = 0.0;
+    for (const Answer& answer : answers) {
+        const double value = d(luminance(vec3(answer.radiance_pdf))) / d(answer.direction_pdf.w) *
+                             std::max(glm::dot(dvec3(answer.direction_pdf), normal), 0.0);
+        sum += value;
+        squares += value * value;
+    }
+    const auto n = static_cast<double>(answers.size());
+    return {sum / n, (squares / n - sum * sum / (n * n)) / n};
+}
+
+// E = integral of L cos over the interpolated texel, a sun of 1e6 in the dark.
+TEST_P(EveryMethod, aSunOfOneTexelGivesItsIrradiance) {
+    constexpr float kSun = 1e6F;
+    const Environment sun = singleTexel(kSun);
+    const dvec3 normal = glm::normalize(dvec3(-0.3, 0.8, 0.4));
+    // The interpolant reaches a texel beyond: midpoints of a fine grid.
+    constexpr int kInner = 64;
+    double exact = 0.0;
+    for (int j = 0; j < 3 * kInner; ++j) {
+        for (int i = 0; i < 3 * kInner; ++i) {
+            const double x = 19.0 + (i + 0.5) / kInner;
+            const double y = 9.0 + (j + 0.5) / kInner;
+            const double theta = kPi * y / 32.0;
+            const double phi = 2.0 * kPi * (x / 64.0 - 0.5);
+            const dvec3 w(std::sin(theta) * std::sin(phi), std::cos(theta), -std::sin(theta) * std::cos(phi));
+            exact += radiance(sun.radiance, x, y) * std::max(glm::dot(w, normal), 0.0) * std::sin(theta) *
+                     (kPi / 32.0 / kInner) * (2.0 * kPi / 64.0 / kInner);
+        }
+    }
+    ASSERT_GT(exact, 0.0);
+    for (const std::uint32_t sampler : {kSamplerRandom, kSamplerSobol}) {
+        const Irradiance found = irradiance(OnDevice(sun, GetParam(), sampler).sample(), normal);
+        // The midpoint rule is off by 1e-5 of it at most: (1 / 64)^2 / 24.
+        EXPECT_NEAR(found.mean, exact, 4.0 * std::sqrt(found.variance) + 2e-5 * exact);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Environment, EveryMethod, testing::ValuesIn(kMethods),
+                         [](const auto& instance) { return nameOf(instance.param); });
+
+TEST(Methods, haveTheSameMean) {
+    const dvec3 normal(0.6, 0.0, 0.8);
+    for (const Environment& environment : environments()) {
+        std::vector<Irradiance> found;
+        for (const EnvironmentSampling how : kMethods)
+            found.push_back(irradiance(OnDevice(environment, how).sample(), normal));
+        for (std::size_t i = 1; i < found.size(); ++i)
+            EXPECT_NEAR(found[i].mean, found[0].mean,
+                        4.5 * std::sqrt(found[i].variance + found[0].variance) + 1e-5 * found[0].mean)
+                << environment.name << " " << nameOf(kMethods[i]);
+    }
+}
+
+// Tries follow the geometric law with the chance 1 / (4 pi peak), cut off after the last.
+TEST(Rejection, triesAreAsTheLawSays) {
+    for (const Environment& environment : environments()) {
+        const double peak = d(buildEnvironmentTable(environment, EnvironmentSampling::rejection).peak);
+        const double chance = 0.25 / (kPi * peak);
+        const double refused = std::pow(1.0 - chance, double{kEnvironmentMostTries});
+        const double mean = (1.0 - refused) / chance;
+        double sum = 0.0;
+        double squares = 0.0;
+        for (const Answer& answer : OnDevice(environment, EnvironmentSampling::rejection).sample()) {
+            ASSERT_LE(d(answer.tries.x), double{kEnvironmentMostTries});
+            sum += d(answer.tries.x);
+            squares += d(answer.tries.x) * d(answer.tries.x);
+        }
+        sum /= kCount;
+        squares /= kCount;
+        const double deviation = std::sqrt(std::max(squares - sum * sum, 0.0) / kCount);
+        EXPECT_NEAR(sum, mean, 4.5 * deviation + 1e-5 * mean) << environment.name;
+    }
+}
+
+// Sobol's numbers leave the stretch of the map from which a row and a column are drawn whole.
+TEST(Inversion, keepsEvenNumbersEven) {
+    const Environment constant = filled("constant", 64, 32, 1.0F);
+    const auto unevenness = [&](EnvironmentSampling how) {
+        // Blue noise with one sample a pixel: all pixels together are evenly spread.
+        std::vector<std::uint64_t> counts(64 * 32);
+        for (const Answer& answer : OnDevice(constant, how, kSamplerBlue).sample()) {
+            const dvec3 w(answer.direction_pdf);
+            const auto column = static_cast<std::size_t>(std::min(placeOf(w).u * 64.0, 63.0));
+            const auto row = static_cast<std::size_t>(std::clamp(16.0 - 16.0 * w.y, 0.0, 31.0));
+            ++counts[row * 64 + column];
+        }
+        return chiSquareTest(counts, std::vector<double>(counts.size(), double{kCount} / (64 * 32)))
+            .statistic;
+    };
+    // Independent numbers give 2047. A box of 2^-11 that even numbers fill is off by a few of 256 at its rim.
+    EXPECT_LT(unevenness(EnvironmentSampling::inversion), 0.1 * 2047.0);
 }
 
 }  // namespace

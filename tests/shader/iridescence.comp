@@ -40,7 +40,7 @@ void main() {
     b.film_metal_f0 = q.metal_f0;
     b.metallic = q.metallic;
     vec4 coat = vec4(coatReflectance(b, q.cosine), passedToBase(b, q.cosine, q.cosine));
-    vec4 u = sample4(SampleAddress(uvec2(i & 1023u, i >> 10u), 0u, q.seed), 0u);
+    vec4 u = random4(SampleAddress(uvec2(i & 1023u, i >> 10u), 0u, q.seed), 0u);
     vec3 wo = vec3(sqrt(1.0 - q.cosine * q.cosine), 0.0, q.cosine);
     vec3 wi = sampleCosineHemisphere(u.yw);
     BsdfSample s = bsdfSample(b, wo, u.x, u.yz);

@@ -14,9 +14,12 @@ layout(std430, binding = 3) readonly buffer Slots { TextureSlotRecord slots[]; }
 layout(std430, binding = 4) readonly buffer Textures { TextureRecord textures[]; };
 layout(std430, binding = 5) readonly buffer Materials { MaterialRecord materials[]; };
 layout(std430, binding = 6) readonly buffer Lights { LightRecord lights[]; };
+layout(std430, binding = 15) readonly buffer LightTree { LightChildRecord light_tree[]; };
 layout(std430, binding = 7) readonly buffer Alias { AliasRecord alias[]; };
 layout(std430, binding = 8) buffer Counters { CounterRecord counters; };
 layout(std430, binding = 9) readonly buffer Nodes { BvhNode nodes[]; };
 layout(std430, binding = 10) readonly buffer Transforms { InstanceTransformRecord transforms[]; };
+
+layout(std430, binding = 11) readonly buffer AdaptiveTiles { AdaptiveTileRecord adaptive_tiles[]; };
 
 void main() {}

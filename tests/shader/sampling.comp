@@ -1,17 +1,14 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Uniform numbers and the warps of pure/sampling.glsl. Threads lie on a picture 1024 pixels wide, so that neighbours are neighbours there.
+// The warps of pure/sampling.glsl.
 #include "pure/random.glsl"
 #include "pure/sampling.glsl"
 
 layout(local_size_x = 64) in;
 layout(push_constant) uniform Push {
     uint count;
-    uint shape;      // 0 sample4, 1 disc, 2 cosine hemisphere, 3 sphere, 4 triangle, 5 circle, 6 a question's words as uniform numbers
-    uint index;
-    uint dimension;
+    uint shape;  // 1 disc, 2 cosine hemisphere, 3 sphere, 4 triangle, 5 circle, 6 hemisphere, 7 ball; by rejection 8 disc, 9 ball, 10 hemisphere, 11 cosine hemisphere
     uint seed;
-    uint varies;     // what the thread's number goes to: 0 the pixel, 1 the sample's index, 2 the dimension, 3 the seed
 };
 layout(std430, binding = 0) readonly buffer Questions { uvec4 words[]; };
 layout(std430, binding = 1) writeonly buffer Answers { vec4 answers[]; };
@@ -19,14 +16,10 @@ layout(std430, binding = 1) writeonly buffer Answers { vec4 answers[]; };
 void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i >= count) return;
-    SampleAddress a = SampleAddress(uvec2(17u, 4u), index, seed);
-    uint d = dimension;
-    if (varies == 0u) a.pixel = uvec2(i & 1023u, i >> 10u);
-    if (varies == 1u) a.index += i;
-    if (varies == 2u) d += i;
-    if (varies == 3u) a.seed += i;
-    vec4 u = sample4(a, d);
-    vec4 answer = u;
+    uvec4 bits = randomBits4(SampleAddress(uvec2(i & 1023u, i >> 10u), 3u, seed), 1u);
+    vec4 u = uniformFromBits(bits);
+    uint tries = 0u;
+    vec4 answer = vec4(0.0);
     if (shape == 1u) answer = vec4(sampleDisc(u.xy), 0.0, 0.0);
     if (shape == 2u) {
         vec3 w = sampleCosineHemisphere(u.xy);
@@ -35,6 +28,12 @@ void main() {
     if (shape == 3u) answer = vec4(sampleUniformSphere(u.xy), 0.0);
     if (shape == 4u) answer = vec4(sampleTriangle(u.xy), 0.0, 0.0);
     if (shape == 5u) answer = vec4(unitCircle(u.x), u.x, 0.0);
-    if (shape == 6u) answer = uniformFromBits(words[i]);
+    if (shape == 6u) answer = vec4(sampleUniformHemisphere(u.xy), 0.0);
+    if (shape == 7u) answer = vec4(sampleBall(u.xyz), 0.0);
+    if (shape == 8u) answer = vec4(sampleDiscByRejection(bits, tries), 0.0, 0.0);
+    if (shape == 9u) answer = vec4(sampleBallByRejection(bits, tries), 0.0);
+    if (shape == 10u) answer = vec4(sampleHemisphereByRejection(bits, tries), 0.0);
+    if (shape == 11u) answer = vec4(sampleCosineHemisphereByRejection(bits, tries), 0.0);
+    if (shape >= 8u) answer.w = float(tries);
     answers[i] = answer;
 }

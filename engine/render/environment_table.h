@@ -1,0 +1,28 @@
+#pragma once
+#include <vector>
+
+#include "licht/render/renderer.h"
+#include "licht/scene/scene.h"
+#include "licht/shared/records.h"
+
+namespace licht {
+
+/// The probability of each texel of an environment, from the top left: the integral of the bilinear luminance
+/// over the texel, by solid angle. Sums to one; a map without light: all zero.
+std::vector<double> environmentShares(const Environment& environment);
+
+/// What drawing directions by these shares takes, as an image of unsigned words;
+/// shaders/bound/environment.glsl reads it.
+struct EnvironmentTable {
+    uvec2 size{1, 1};  ///< texels
+    uint words = 1;    ///< of a texel: 1 or 4
+    std::vector<uint> texels{0};
+    float peak = 0.0F;  ///< largest density of a direction, 1/sr
+};
+
+/// alias and rejection: an alias table over the texels, an AliasRecord a texel. inversion: the distribution
+/// function of the texels of each row, and in one more column that of the rows, in units of 2^-31. What the
+/// shaders take for the probability of a texel is what the table does; no texel with light has none.
+EnvironmentTable buildEnvironmentTable(const Environment& environment, EnvironmentSampling how);
+
+}  // namespace licht

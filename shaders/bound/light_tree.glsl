@@ -1,0 +1,119 @@
+// One light of many, by a walk down a tree: at each node a child is taken the more often the more it could send.
+// Conty Estevez and Kulla 2018, Importance Sampling of Many Lights with Adaptive Tree Splitting. Bounds are conservative: what can light a point has a
+// probability greater than zero there.
+#ifndef LICHT_BOUND_LIGHT_TREE_GLSL
+#define LICHT_BOUND_LIGHT_TREE_GLSL
+
+#include "bound/scene_data.glsl"
+#include "shared/records.h"
+
+layout(binding = 56) uniform usamplerBuffer light_tree_texels;
+layout(std430, binding = 15) readonly buffer LightTree { LightChildRecord light_tree[]; };
+
+LightChildRecord lightChildAt(uint i) {
+    if (kSceneInStorage) return light_tree[i];
+    int first = int(kLightChildTexels * i);
+    vec4 a = uintBitsToFloat(texelFetch(light_tree_texels, first)), b = uintBitsToFloat(texelFetch(light_tree_texels, first + 1));
+    vec4 c = uintBitsToFloat(texelFetch(light_tree_texels, first + 2));
+    uvec4 d = texelFetch(light_tree_texels, first + 3);
+    return LightChildRecord(a.xyz, a.w, b.xyz, b.w, c.xyz, c.w, uintBitsToFloat(d.x), d.y, 0u, 0u);
+}
+
+// cos(max(a - b, 0)) of angles in [0, pi] given by cosine and sine.
+float cosineOfDifference(float cos_a, float sin_a, float cos_b, float sin_b) { return cos_a > cos_b ? 1.0 : cos_a * cos_b + sin_a * sin_b; }
+
+float sineOf(float cosine) { return sqrt(max(1.0 - cosine * cosine, 0.0)); }
+
+// What the lights below a child could send to a surface at most, up to a factor that siblings share: intensity, both cosines at their best within the
+// bounding sphere, inverse square of the distance to its centre.
+float lightImportance(LightChildRecord c, vec3 position, vec3 normal) {
+    vec3 d = c.centre - position;
+    float d2 = dot(d, d);
+    float r2 = dot(c.half_size, c.half_size);
+    // How far the box rises above the surface's horizon.
+    if (dot(d, normal) + dot(c.half_size, abs(normal)) + kLightSlack * sqrt(d2) <= 0.0) return 0.0;
+    if (d2 <= r2) return r2 > 0.0 ? c.intensity / r2 : 0.0;  // inside the bounding sphere nothing is known of directions
+    vec3 w = d * inversesqrt(d2);
+    float sin2_sphere = r2 / d2;
+    float cos_sphere = sqrt(max(1.0 - sin2_sphere, 0.0)), sin_sphere = sqrt(sin2_sphere);
+
+    float cos_facing = dot(w, normal);
+    float cos_receiver = cosineOfDifference(cos_facing, sineOf(cos_facing), cos_sphere, sin_sphere) + kLightSlack;
+
+    // The angle to the axis, less the spread of the normals, less the width of the sphere.
+    float cos_axis = -dot(c.axis, w);
+    if ((c.next & kLightTwoSided) != 0u) cos_axis = abs(cos_axis);
+    float sin_axis = sineOf(cos_axis);
+    float cos_normal = cosineOfDifference(cos_axis, sin_axis, c.cos_normals, c.sin_normals);
+    float cos_emitter = cosineOfDifference(cos_normal, sineOf(cos_normal), cos_sphere, sin_sphere) + kLightSlack;
+
+    return cos_emitter <= c.cos_emission ? 0.0 : c.intensity * max(cos_receiver, kLightSlack) * cos_emitter / d2;
+}
+
+struct TreePick {
+    uint light;  // kNoIndex: nothing in the tree reaches this surface
+    float pmf;
+};
+
+// A node as seen from a surface.
+struct LightNode {
+    vec4 importance;  // of the children
+    uvec4 next;
+};
+
+LightNode lightNodeAt(uint node, vec3 position, vec3 normal) {
+    uint first = kLightChildren * node;
+    LightChildRecord a = lightChildAt(first), b = lightChildAt(first + 1u), c = lightChildAt(first + 2u), d = lightChildAt(first + 3u);
+    return LightNode(vec4(lightImportance(a, position, normal), lightImportance(b, position, normal), lightImportance(c, position, normal),
+                          lightImportance(d, position, normal)),
+                     uvec4(a.next, b.next, c.next, d.next));
+}
+
+TreePick pickInTree(vec3 position, vec3 normal, vec2 u) {
+    TreePick pick = TreePick(kNoIndex, 1.0);
+    uint node = 0u, level = 0u;
+    float x = u.x;
+    while (true) {
+        LightNode n = lightNodeAt(node, position, normal);
+        float sum = n.importance.x + n.importance.y + n.importance.z + n.importance.w;
+        if (!(sum > 0.0)) break;
+        // The number that has chosen is stretched for the next level; when its bits run low the other one takes over.
+        if (++level == 7u) x = u.y;
+        vec4 p = n.importance / sum;
+        vec3 below = vec3(p.x, p.x + p.y, p.x + p.y + p.z);
+        // The first child that reaches x; past the last one, by rounding, the last that can be taken.
+        uint k = x < below.x ? 0u : x < below.y ? 1u : x < below.z ? 2u : 3u;
+        if (k == 3u && p.w <= 0.0) k = p.z > 0.0 ? 2u : p.y > 0.0 ? 1u : 0u;
+        float taken = k == 0u ? p.x : k == 1u ? p.y : k == 2u ? p.z : p.w;
+        float before = k == 0u ? 0.0 : k == 1u ? below.x : k == 2u ? below.y : below.z;
+        uint next = k == 0u ? n.next.x : k == 1u ? n.next.y : k == 2u ? n.next.z : n.next.w;
+        x = clamp((x - before) / taken, 0.0, 0.99999994);
+        pick.pmf *= taken;
+        node = next & kLightIndexMask;
+        if ((next & kLightLeaf) != 0u) {
+            pick.light = node;
+            break;
+        }
+    }
+    return pick;
+}
+
+// With what probability the walk from this surface ends at the light of that trail.
+float pmfInTree(vec3 position, vec3 normal, uint trail) {
+    float pmf = 1.0;
+    uint node = 0u;
+    while (true) {
+        LightNode n = lightNodeAt(node, position, normal);
+        float sum = n.importance.x + n.importance.y + n.importance.z + n.importance.w;
+        vec4 p = n.importance / sum;
+        uint k = trail & (kLightChildren - 1u);
+        pmf *= !(sum > 0.0) ? 0.0 : k == 0u ? p.x : k == 1u ? p.y : k == 2u ? p.z : p.w;
+        uint next = k == 0u ? n.next.x : k == 1u ? n.next.y : k == 2u ? n.next.z : n.next.w;
+        node = next & kLightIndexMask;
+        trail >>= kLightTrailBits;
+        if ((next & kLightLeaf) != 0u || !(pmf > 0.0)) break;
+    }
+    return pmf;
+}
+
+#endif

@@ -1,0 +1,203 @@
+// Direct light by every way of finding it: one mean, which is known in closed form, and bounded noise.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "licht/scenes/assembly.h"
+#include "licht/scenes/builtin.h"
+#include "licht/scenes/shapes.h"
+#include "support/render_test.h"
+
+namespace licht {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+// Faces up, around the origin; ground below keeps what shines the lesser part of all surface.
+void addReceiver(Scene& scene, float half) {
+    place(scene, quadMesh("receiver", 0, vec3(-half, 0, half), vec3(half, 0, half), vec3(half, 0, -half),
+                          vec3(-half, 0, -half)));
+    place(scene, quadMesh("ground", 0, vec3(-9, -5, 9), vec3(9, -5, 9), vec3(9, -5, -9), vec3(-9, -5, -9)));
+}
+
+// A wall of side one over the receiver's edge x = -1/2, facing +X, from `pieces` x `pieces` quads.
+void addWall(Scene& scene, int pieces) {
+    const float step = 1.0F / static_cast<float>(pieces);
+    for (int i = 0; i < pieces; ++i) {
+        for (int j = 0; j < pieces; ++j) {
+            const float z = 0.5F - step * static_cast<float>(i);
+            const float y = step * static_cast<float>(j);
+            place(scene, quadMesh("wall", 1, vec3(-0.5F, y, z), vec3(-0.5F, y, z - step),
+                                  vec3(-0.5F, y + step, z - step), vec3(-0.5F, y + step, z)));
+        }
+    }
+}
+
+RenderSettings settingsOf(DirectLight direct, MisHeuristic mis, LightChoice lights) {
+    RenderSettings settings;
+    settings.size = uvec2(48);
+    settings.bounces = 1;
+    settings.direct = direct;
+    settings.mis = mis;
+    settings.lights = lights;
+    settings.sampler = Sequence::random;
+    return settings;
+}
+
+using Choice = std::tuple<DirectLight, MisHeuristic, LightChoice>;
+
+class Estimators : public testing::TestWithParam<Choice> {};
+
+// Howell, A Catalog of Radiation Heat Transfer Configuration Factors: perpendicular unit squares with a
+// common edge.
+TEST_P(Estimators, AgreeWithTheFormFactorOfATouchingWall) {
+    const auto [direct, mis, lights] = GetParam();
+    Scene scene;
+    scene.materials = {lambert(0.5F), lambert(0.0F, 4.0F)};
+    addReceiver(scene, 0.5F);
+    addWall(scene, 4);
+    const Film film =
+        renderFilm(scene, downCamera(vec3(0.0F), 0.5F, 3.0F), settingsOf(direct, mis, lights), 256);
+    expectMean(film, 0.5 * 4.0 * 0.2000437761);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Estimators,
+                         testing::Values(Choice{DirectLight::mis, MisHeuristic::power, LightChoice::tree},
+                                         Choice{DirectLight::mis, MisHeuristic::balance, LightChoice::power},
+                                         Choice{DirectLight::area, MisHeuristic::power, LightChoice::tree},
+                                         Choice{DirectLight::area, MisHeuristic::power, LightChoice::uniform},
+                                         Choice{DirectLight::hemisphere, MisHeuristic::power,
+                                                LightChoice::tree}),
+                         [](const auto& instance) { return "choice" + std::to_string(instance.index); });
+
+// Mean over pixels of the variance of one sample.
+double sampleVariance(const Film& film) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < film.variance.texels.size(); i += 3)
+        sum += static_cast<double>(film.variance.texels[i]);
+    return sum * film.samples / (static_cast<double>(film.size.x) * film.size.y);
+}
+
+// By area, the second moment of a touching light diverges (f^2 goes with r^-4). By solid angle a sample is
+// worth albedo / pi * L * cos * omega, which is between 0 and 2 * albedo * L: its variance is at most the
+// square of half of that (Popoviciu 1935), however near the surface is.
+TEST(TouchingLight, HasBoundedVarianceAtAnyDistance) {
+    for (const float strip : {0.1F, 1e-3F, 1e-5F}) {
+        Scene scene;
+        scene.materials = {lambert(0.5F), lambert(0.0F, 4.0F)};
+        addReceiver(scene, 0.5F);
+        addWall(scene, 1);
+        const Camera camera = downCamera(vec3(-0.5F + 0.5F * strip, 0, 0), 0.5F * strip, 3.0F);
+        const Film area = renderFilm(
+            scene, camera, settingsOf(DirectLight::area, MisHeuristic::power, LightChoice::tree), 64);
+        EXPECT_LE(sampleVariance(area), 0.5 * 0.5 * 4.0 * 4.0) << strip;
+        // Rays start 2e-6 m off their surface here, and those of a strip as thin as that pass by the wall's
+        // edge: means are compared where that is a share of at most 1e-3.
+        if (strip < 1e-3F) continue;
+        const Film hemisphere = renderFilm(
+            scene, camera, settingsOf(DirectLight::hemisphere, MisHeuristic::power, LightChoice::tree), 64);
+        const PictureMean a = pictureMean(area, 0), b = pictureMean(hemisphere, 0);
+        EXPECT_LE(std::abs(a.mean - b.mean),
+                  4.5 * std::hypot(a.standard_error, b.standard_error) + 1e-5 * b.mean)
+            << strip;
+    }
+}
+
+// Veach 1997, theorem 9.2, with one sample of each technique: the balance heuristic's variance exceeds that
+// of the better technique alone by at most mu^2 / 2. A light that is small and far suits one of them, one
+// that covers the sky the other.
+TEST(Mis, IsNeverMuchWorseThanTheBetterOfBoth) {
+    struct Light {
+        float height, half;
+    };
+    for (const Light light : {Light{3.0F, 0.1F}, Light{0.2F, 2.0F}, Light{1.0F, 0.7F}}) {
+        Scene scene;
+        scene.materials = {lambert(0.5F), lambert(0.0F, 4.0F)};
+        addReceiver(scene, 0.1F);
+        const float h = light.half;
+        const float y = light.height;
+        place(scene, quadMesh("light", 1, vec3(-h, y, -h), vec3(h, y, -h), vec3(h, y, h), vec3(-h, y, h)));
+        const Camera camera = downCamera(vec3(0.0F), 0.1F, 0.15F);
+        const auto film = [&](DirectLight direct) {
+            return renderFilm(scene, camera, settingsOf(direct, MisHeuristic::balance, LightChoice::tree),
+                              64);
+        };
+        const Film mis = film(DirectLight::mis);
+        const double best =
+            std::min(sampleVariance(film(DirectLight::area)), sampleVariance(film(DirectLight::hemisphere)));
+        const double mu = pictureMean(mis, 0).mean;
+        // 2304 pixels of 64 samples know a variance to sqrt(2 / 147456) = 0.4 % for normal samples, and these
+        // are bounded.
+        EXPECT_LE(sampleVariance(mis), 1.05 * best + 0.5 * mu * mu) << light.height;
+    }
+}
+
+// At a fixed product of radiance and area a light's size does not matter once it is far away: E = L A / d^2,
+// off by the square of size over distance; the way of sampling changes in between.
+TEST(TinyLight, GivesWhatItsPowerSays) {
+    for (const float side : {1e-2F, 1e-3F, 3e-4F, 1e-5F}) {
+        Scene scene;
+        scene.materials = {lambert(0.5F), lambert(0.0F, 4.0F / (side * side))};
+        addReceiver(scene, 0.001F);
+        const float h = 0.5F * side;
+        place(scene, quadMesh("light", 1, vec3(-h, 1, -h), vec3(h, 1, -h), vec3(h, 1, h), vec3(-h, 1, h)));
+        const Film film = renderFilm(scene, downCamera(vec3(0.0F), 0.001F, 0.5F),
+                                     settingsOf(DirectLight::mis, MisHeuristic::power, LightChoice::tree), 4);
+        const double exact = 0.5 / kPi * 4.0;
+        const PictureMean mean = pictureMean(film, 0);
+        const double relative = 2.0 * (static_cast<double>(side) * static_cast<double>(side) + 1e-6) + 1e-5;
+        EXPECT_NEAR(mean.mean, exact, 4.5 * mean.standard_error + relative * exact) << side;
+    }
+}
+
+// A directional light says what a surface that faces it gets, whatever part of the sky it fills.
+TEST(Sun, IlluminatesAlikeAtAnySize) {
+    for (const double degrees : {0.0, 0.5332, 20.0, 120.0}) {
+        Scene scene;
+        scene.materials = {lambert(0.5F)};
+        addReceiver(scene, 0.5F);
+        PunctualLight sun;
+        sun.kind = PunctualLight::Kind::directional;
+        sun.direction = vec3(0, -1, 0);
+        sun.intensity = vec3(3.0F);
+        sun.angular_diameter = static_cast<float>(degrees * kPi / 180.0);
+        scene.lights = {sun};
+        const Film film =
+            renderFilm(scene, downCamera(vec3(0.0F), 0.5F, 3.0F),
+                       settingsOf(DirectLight::mis, MisHeuristic::power, LightChoice::tree), 64);
+        expectMean(film, 0.5 / kPi * 3.0);
+    }
+}
+
+// Many lights of many kinds: near, far, hidden, facing away, spots. Every choice among them has the same
+// picture.
+TEST(ManyLights, EveryChoiceGivesTheSamePicture) {
+    const Scene scene = *makeBuiltinScene("lamps", 1000);
+    RenderSettings settings = settingsOf(DirectLight::mis, MisHeuristic::power, LightChoice::tree);
+    settings.size = uvec2(64, 36);
+    settings.bounces = 2;
+    const auto film = [&](LightChoice choice) {
+        settings.lights = choice;
+        ++settings.seed;
+        return renderFilm(scene, scene.cameras[0], settings, 64);
+    };
+    const Film tree = film(LightChoice::tree);
+    const Film power = film(LightChoice::power);
+    const Film uniform = film(LightChoice::uniform);
+    for (int c = 0; c < 3; ++c) {
+        const PictureMean t = pictureMean(tree, c);
+        for (const Film* other : {&power, &uniform}) {
+            const PictureMean o = pictureMean(*other, c);
+            EXPECT_LE(std::abs(t.mean - o.mean), 4.5 * std::hypot(t.standard_error, o.standard_error)) << c;
+        }
+    }
+    EXPECT_LT(pictureMean(tree, 1).standard_error, pictureMean(uniform, 1).standard_error);
+}
+
+}  // namespace
+}  // namespace licht

@@ -1,0 +1,144 @@
+// What the table of lights makes of a scene: which lights there are, how likely each is, and when a tree is
+// worth it.
+#include "licht/render/light_table.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+
+#include "licht/render/light_tree.h"
+#include "licht/scene/effects.h"
+
+namespace licht {
+namespace {
+
+Material emitter(float emission) {
+    Material m;
+    m.emission = vec3(emission);
+    return m;
+}
+
+void add(Scene& scene, std::vector<vec3> positions, std::vector<uvec3> triangles, std::uint32_t material,
+         const mat4& transform = mat4(1.0F)) {
+    Mesh mesh;
+    mesh.positions = std::move(positions);
+    mesh.triangles = std::move(triangles);
+    mesh.material = material;
+    scene.instances.push_back({"", static_cast<std::uint32_t>(scene.meshes.size()), transform});
+    scene.meshes.push_back(std::move(mesh));
+}
+
+// Dark ground, so that what shines stays the lesser part of all surface, and quads above it.
+Scene sceneOfQuads(int count) {
+    Scene scene;
+    scene.materials = {Material{}, emitter(3.0F)};
+    add(scene, {{-50, -1, 50}, {50, -1, 50}, {50, -1, -50}}, {{0, 1, 2}}, 0);
+    for (int i = 0; i < count; ++i)
+        add(scene, {{0, 0, 0}, {2, 0, 0}, {2, 0, 1}, {0, 0, 1}}, {{0, 1, 2}, {0, 2, 3}}, 1,
+            glm::translate(mat4(1.0F), vec3(3.0F * static_cast<float>(i), 0, 0)));
+    return scene;
+}
+
+LightTable tableOf(const Scene& scene, LightChoice choice) {
+    return buildLightTable(scene, detectEffects(scene), true, choice);
+}
+
+double sumOfPmf(const LightTable& table) {
+    double sum = 0.0;
+    for (const AliasRecord& column : table.alias) sum += static_cast<double>(column.pmf);
+    return sum;
+}
+
+uint kindOf(const LightRecord& light) {
+    return light.kind & kLightKindMask;
+}
+
+TEST(LightTable, TwoHalvesOfARectangleAreOneLight) {
+    const LightTable table = tableOf(sceneOfQuads(1), LightChoice::tree);
+    ASSERT_EQ(table.lights.size(), 2U);
+    EXPECT_EQ(kindOf(table.lights[0]), kLightRectangle);
+    EXPECT_EQ(glm::length(glm::cross(table.lights[0].direction, table.lights[0].intensity)), 2.0F);
+    EXPECT_EQ(std::memcmp(&table.lights[0], &table.lights[1], sizeof(LightRecord)), 0);
+    EXPECT_EQ(table.alias.size(), 2U);
+    EXPECT_EQ(table.alias[1].pmf, 0.0F) << "the second half is never picked";
+}
+
+TEST(LightTable, WhatIsNoRectangleStaysTriangles) {
+    const mat4 shear(vec4(1, 0, 0, 0), vec4(0, 1, 0, 0), vec4(0.01F, 0, 1, 0), vec4(0, 0, 0, 1));
+    Scene sheared = sceneOfQuads(1);
+    sheared.instances[1].world_from_object = shear;
+    Scene bent = sceneOfQuads(1);
+    bent.meshes[1].positions[3].y = 0.001F;
+    Scene turned = sceneOfQuads(1);
+    std::swap(turned.meshes[1].triangles[1].y, turned.meshes[1].triangles[1].z);  // its back is up
+    for (const Scene* scene : {&sheared, &bent, &turned})
+        for (const LightRecord& light : tableOf(*scene, LightChoice::power).lights)
+            EXPECT_EQ(kindOf(light), kLightTriangle);
+}
+
+// The side that shines is the one whose corners turn counter-clockwise, in a mirrored instance too.
+TEST(LightTable, MirroredRectanglesShineToTheSameSide) {
+    Scene scene = sceneOfQuads(1);
+    scene.instances[1].world_from_object = glm::scale(mat4(1.0F), vec3(-1, 1, 1));
+    const LightTable table = tableOf(scene, LightChoice::power);
+    ASSERT_EQ(kindOf(table.lights[0]), kLightRectangle);
+    EXPECT_LT(glm::cross(table.lights[0].direction, table.lights[0].intensity).y, 0.0F);
+}
+
+TEST(LightTable, ProbabilitiesSumToOne) {
+    Scene scene = sceneOfQuads(30);
+    scene.environment = constantEnvironment(vec3(1.0F));
+    PunctualLight point;
+    point.position = vec3(1, 2, 3);
+    PunctualLight sun;
+    sun.kind = PunctualLight::Kind::directional;
+    scene.lights = {point, sun, point};
+    for (const LightChoice choice : {LightChoice::tree, LightChoice::power, LightChoice::uniform})
+        EXPECT_NEAR(sumOfPmf(tableOf(scene, choice)), 1.0, 1e-6);
+    const LightTable tree = tableOf(scene, LightChoice::tree);
+    EXPECT_EQ(tree.alias.size(), 3U) << "the tree, the sun, the sky";
+    EXPECT_EQ(tree.tree_lights, 62U) << "all halves of rectangles, and the points";
+    EXPECT_EQ(tree.lights.size(), 64U);
+    EXPECT_EQ(tree.environment_light, 63U);
+}
+
+// Effects on demand: nothing is picked by a tree where there is nothing to pick.
+TEST(LightTable, OneLightHasNoTree) {
+    EXPECT_TRUE(tableOf(sceneOfQuads(1), LightChoice::tree).tree.empty());
+    EXPECT_FALSE(tableOf(sceneOfQuads(2), LightChoice::tree).tree.empty());
+    EXPECT_TRUE(tableOf(sceneOfQuads(2), LightChoice::power).tree.empty());
+}
+
+// Zero area, zero power, a light that is dark in one channel: dropped, or kept, but never a division by zero.
+TEST(LightTable, WhatGivesNoLightIsNeverPicked) {
+    for (const LightChoice choice : {LightChoice::tree, LightChoice::power, LightChoice::uniform}) {
+        Scene scene = sceneOfQuads(3);
+        scene.materials.push_back(emitter(0.0F));
+        add(scene, {{0, 5, 0}, {1, 5, 0}, {2, 5, 0}}, {{0, 1, 2}}, 1);  // no area
+        add(scene, {{0, 6, 0}, {0, 6, 0}, {0, 6, 0}}, {{0, 1, 2}}, 1);  // a point
+        add(scene, {{0, 7, 0}, {1, 7, 0}, {0, 7, 1}}, {{0, 1, 2}}, 2);  // black
+        const LightTable table = tableOf(scene, choice);
+        ASSERT_EQ(table.lights.size(), 8U);
+        EXPECT_EQ(table.lights[6].pmf, 0.0F);
+        EXPECT_EQ(table.lights[7].pmf, 0.0F);
+        EXPECT_NEAR(sumOfPmf(table), 1.0, 1e-6);
+        for (const LightChildRecord& child : table.tree)
+            EXPECT_TRUE(std::isfinite(child.intensity) && std::isfinite(child.half_size.x));
+    }
+    Scene dark = sceneOfQuads(2);
+    dark.materials[1] = emitter(0.0F);
+    EXPECT_TRUE(tableOf(dark, LightChoice::tree).lights.empty());
+}
+
+TEST(LightTable, UniformMeansAlikeAndPowerMeansByFlux) {
+    Scene scene = sceneOfQuads(2);
+    scene.instances[2].world_from_object = glm::scale(mat4(1.0F), vec3(2.0F));
+    const LightTable uniform = tableOf(scene, LightChoice::uniform);
+    EXPECT_EQ(uniform.lights[0].pmf, uniform.lights[2].pmf);
+    const LightTable power = tableOf(scene, LightChoice::power);
+    EXPECT_FLOAT_EQ(4.0F * power.lights[0].pmf, power.lights[2].pmf);
+}
+
+}  // namespace
+}  // namespace licht

@@ -1,0 +1,34 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Walks down a light tree: which light is picked with which probability, and what looking the same light up says.
+#include "bound/light_tree.glsl"
+#include "pure/random.glsl"
+
+layout(local_size_x = 64) in;
+layout(push_constant) uniform Push { uint count; uint per_place; uint seed; };
+struct Place {
+    vec3 position;
+    float reserved0;
+    vec3 normal;
+    float reserved1;
+};
+struct Answer {
+    uint light;
+    float pmf;
+    float looked_up;
+    uint reserved;
+};
+layout(std430, binding = 40) readonly buffer Questions { Place places[]; };
+layout(std430, binding = 41) writeonly buffer Answers { Answer answers[]; };
+layout(std430, binding = 42) readonly buffer Trails { uint trails[]; };
+
+void main() {
+    uint i = gl_GlobalInvocationID.x;
+    if (i >= count) return;
+    Place place = places[i / per_place];
+    vec4 u = random4(SampleAddress(uvec2(i & 1023u, i >> 10u), 0u, seed), 0u);
+    TreePick pick = pickInTree(place.position, place.normal, u.xy);
+    bool picked = pick.light != kNoIndex;
+    float looked_up = picked ? pmfInTree(place.position, place.normal, trails[pick.light]) : 0.0;
+    answers[i] = Answer(pick.light, picked ? pick.pmf : 0.0, looked_up, 0u);
+}
