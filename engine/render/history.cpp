@@ -28,13 +28,20 @@ History::History(gpu::Device& device, uvec2 size, bool layers) {
         aov_motion = storageImage(device, "aov_motion", size, kFloat4);
     }
     display = storageImage(device, "display", size, VK_FORMAT_R8G8B8A8_UNORM);
+    nothing = storageImage(device, "nothing", uvec2(1), kFloat4);
+}
+
+// The texel that stands for nothing is stated like what it stands for: validation layers see it bound.
+gpu::Use History::orderSumsUse() const {
+    return {order_sums != nullptr ? order_sums : &nothing, gpu::Access::compute_read_write};
 }
 
 std::vector<gpu::BoundResource> History::resources() const {
     std::vector<gpu::BoundResource> list{
-        {"gbuffer", &gbuffer},       {"radiance_image", &radiance},   {"mean_high", &mean_high},
-        {"mean_low", &mean_low},     {"squares_high", &squares_high}, {"squares_low", &squares_low},
-        {"display_image", &display},
+        {"gbuffer", &gbuffer},           {"radiance_image", &radiance},
+        {"mean_high", &mean_high},       {"mean_low", &mean_low},
+        {"squares_high", &squares_high}, {"squares_low", &squares_low},
+        {"display_image", &display},     {"order_sums", order_sums != nullptr ? order_sums : &nothing},
     };
     if (aov_albedo) {
         list.push_back({"aov_albedo", &aov_albedo});

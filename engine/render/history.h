@@ -1,5 +1,5 @@
 #pragma once
-#include "licht/gpu/resource.h"
+#include "licht/gpu/commands.h"
 #include "licht/render/renderer.h"
 
 namespace licht {
@@ -11,11 +11,15 @@ struct History {
     History(gpu::Device& device, uvec2 size, bool layers);
 
     [[nodiscard]] std::vector<gpu::BoundResource> resources() const;
+    /// What passes that follow paths touch of the sums by order.
+    [[nodiscard]] gpu::Use orderSumsUse() const;
 
     gpu::Image gbuffer, depth, radiance;
     gpu::Image mean_high, mean_low, squares_high, squares_low;
     gpu::Image aov_albedo, aov_normal, aov_motion;
     gpu::Image display;
+    gpu::Image nothing;  ///< one texel for what programs name and, being specialised, never touch
+    const gpu::Image* order_sums = nullptr;  ///< where they are kept; another owns it
     std::uint32_t samples = 0;
     std::uint32_t aov_samples = 0;
 };

@@ -27,14 +27,14 @@ void recordPath(gpu::Commands& commands, const gpu::Program& program, const gpu:
                 const History& history, const gpu::Buffer& counters, const SamplePush& push,
                 std::uint32_t paths_per_thread) {
     const VkExtent2D extent = history.gbuffer.extent();
-    commands.pass("path",
-                  {{&history.gbuffer, Access::compute_read},
-                   {&history.radiance, Access::compute_write},
-                   {&counters, Access::compute_read_write}},
-                  [&](const gpu::Pass& pass) {
-                      pass.dispatch(program, bindings, push, extent.width,
-                                    (push.row_count + paths_per_thread - 1) / paths_per_thread);
-                  });
+    std::vector<gpu::Use> uses{{&history.gbuffer, Access::compute_read},
+                               {&history.radiance, Access::compute_write},
+                               {&counters, Access::compute_read_write},
+                               history.orderSumsUse()};
+    commands.pass("path", uses, [&](const gpu::Pass& pass) {
+        pass.dispatch(program, bindings, push, extent.width,
+                      (push.row_count + paths_per_thread - 1) / paths_per_thread);
+    });
 }
 
 void recordAccumulate(gpu::Commands& commands, const gpu::Program& program, const gpu::Bindings& bindings,
@@ -65,9 +65,8 @@ void recordLayers(gpu::Commands& commands, const gpu::Program& program, const gp
 }
 
 void recordTonemap(gpu::Commands& commands, const gpu::Program& program, const gpu::Bindings& bindings,
-                   const History& history, const TonemapPush& push) {
-    commands.pass("tonemap",
-                  {{&history.mean_high, Access::compute_read}, {&history.display, Access::compute_write}},
+                   const gpu::Image& mean, const History& history, const TonemapPush& push) {
+    commands.pass("tonemap", {{&mean, Access::compute_read}, {&history.display, Access::compute_write}},
                   [&](const gpu::Pass& pass) {
                       pass.dispatch(program, bindings, push, history.display.extent().width,
                                     history.display.extent().height);

@@ -24,8 +24,8 @@ void recordAccumulate(gpu::Commands& commands, const gpu::Program& program, cons
 void recordLayers(gpu::Commands& commands, const gpu::Program& program, const gpu::Bindings& bindings,
                   const History& history, const SamplePush& push);
 
-/// mean -> display.
+/// `mean`, which the bindings name, -> display.
 void recordTonemap(gpu::Commands& commands, const gpu::Program& program, const gpu::Bindings& bindings,
-                   const History& history, const TonemapPush& push);
+                   const gpu::Image& mean, const History& history, const TonemapPush& push);
 
 }  // namespace licht

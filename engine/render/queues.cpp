@@ -117,15 +117,24 @@ void Queues::record(gpu::Commands& commands, const History& history, std::size_t
     const gpu::Use counted{&counters, Access::compute_read_write};
     const gpu::Use paths{&paths_, Access::compute_read_write};
     const gpu::Use groups{&groups_, Access::indirect_read};
+    // Where orders are kept, passes are told apart by the bounce, so that each order has its time.
+    const auto timed = [&](const char* name) {
+        return history.order_sums != nullptr ? fmt::format("{} {}", name, push.bounce) : std::string(name);
+    };
+    const auto used = [&](std::initializer_list<gpu::Use> uses) {
+        std::vector<gpu::Use> all(uses);
+        all.push_back(history.orderSumsUse());
+        return all;
+    };
     const auto overPixels = [&](const char* name, const Kernel& kernel,
                                 std::initializer_list<gpu::Use> uses) {
-        commands.pass(name, uses, [&](const gpu::Pass& pass) {
+        commands.pass(name, used(uses), [&](const gpu::Pass& pass) {
             pass.dispatch(kernel.program, kernel.bindings[slot], push, width, push.row_count);
         });
     };
     const auto overQueue = [&](const char* name, const Kernel& kernel, std::uint32_t which,
                                std::initializer_list<gpu::Use> uses) {
-        commands.pass(name, uses, [&](const gpu::Pass& pass) {
+        commands.pass(timed(name), used(uses), [&](const gpu::Pass& pass) {
             pass.dispatchIndirect(kernel.program, kernel.bindings[slot], push, groups_,
                                   which * sizeof(uvec4));
         });

@@ -31,7 +31,7 @@ gpu::SpecConstants constantsOf(const GpuScene& scene, const Effects& effects) {
     for (uint effect = 0; effect < kEffectCount; ++effect) constants[effect] = effects.has(effect) ? 1U : 0U;
     constants[kEffectGlossy] = 0;  // diffuse bounces
     constants[kEffectIridescence] = 0;
-    constants[kConstantDirectMis] = 1;
+    constants[kConstantDirect] = kDirectMis;
     return constants;
 }
 

@@ -1,15 +1,19 @@
 #include "licht/render/renderer.h"
 
 #include <array>
+#include <cassert>
 #include <chrono>
 #include <cmath>
 #include <cstring>
 #include <optional>
 
 #include "licht/core/error.h"
+#include "licht/gpu/upload_image.h"
+#include "licht/render/adaptive.h"
 #include "licht/render/film.h"
 #include "licht/render/gpu_scene.h"
 #include "licht/render/history.h"
+#include "licht/render/order_sums.h"
 #include "licht/render/passes.h"
 #include "licht/render/programs.h"
 #include "licht/render/queues.h"
@@ -43,8 +47,8 @@ Effects effectsOf(const Scene& scene, const RenderSettings& settings) {
 // How many paths a thread follows, one after the other. On a CPU lanes run in lockstep and there are few of
 // them: the next path fills a lane whose path has ended (measured on lavapipe: 1.2 times the samples where
 // paths are of different lengths). A GPU wants threads. Some drivers end a thread's loops after 65,535
-// rounds. A vertex of a path takes some dozens, and roulette leaves few paths that go on for long; half of the
-// rounds are kept in reserve, and a walk that is cut all the same is reported.
+// rounds. A vertex of a path takes some dozens, and roulette leaves few paths that go on for long; half of
+// the rounds are kept in reserve, and a walk that is cut all the same is reported.
 std::uint32_t pathsPerThread(const gpu::Device& device, const RenderSettings& settings) {
     constexpr std::uint32_t kMostPaths = 16;
     constexpr std::uint32_t kRounds = 32'768;
@@ -61,7 +65,14 @@ gpu::SpecConstants constantsOf(const Effects& effects, const GpuScene& scene, co
                                std::uint32_t paths_per_thread) {
     gpu::SpecConstants constants = scene.constants();
     for (uint effect = 0; effect < kEffectCount; ++effect) constants[effect] = effects.has(effect) ? 1U : 0U;
-    constants[kConstantDirectMis] = settings.direct == DirectLight::mis ? 1U : 0U;
+    constants[kConstantDirect] = static_cast<uint>(settings.direct);
+    constants[kConstantMisBalance] = settings.mis == MisHeuristic::balance ? 1U : 0U;
+    constants[kConstantSampler] = static_cast<uint>(settings.sampler);
+    constants[kConstantBlueBits] = settings.blue_bits;
+    constants[kConstantClamp] = settings.clamp > 0.0F ? 1U : 0U;
+    constants[kConstantRegularise] = settings.regularise ? 1U : 0U;
+    constants[kConstantOrders] = settings.orders ? settings.bounces + 1U : 0U;
+    constants[kConstantAdaptive] = settings.adaptive ? 1U : 0U;
     constants[kConstantPathsPerThread] = paths_per_thread;
     if (settings.all_effects) {
         constants[kConstantTexturePages] = kTexturePages;
@@ -94,7 +105,9 @@ struct Renderer::State {
           camera(c),
           effects(effectsOf(scene, s)),
           upload_start(Clock::now()),
-          gpu_scene(d, scene, effects, {s.direct == DirectLight::mis, s.storage_buffers, s.bvh_quality}),
+          gpu_scene(d, scene, effects,
+                    {s.direct != DirectLight::hemisphere, s.storage_buffers, s.bvh_quality, s.lights,
+                     s.environment_sampling}),
           frame_buffer(d, "frame", sizeof(FrameRecord), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
                        gpu::Memory::host_write),
           slots{Slot(d, "counters 0"), Slot(d, "counters 1")} {
@@ -116,6 +129,7 @@ struct Renderer::State {
     void writeFrame(const ViewRecord& view, const ViewRecord& previous);
     Slot& nextSlot();
     void collect(Slot& slot);
+    void foldOrders();
     std::uint32_t rowsPerSlice() const;
 
     gpu::Device& device;
@@ -131,7 +145,11 @@ struct Renderer::State {
     std::array<Slot, 2> slots;
     std::size_t next_slot = 0;
     std::optional<History> history;
-    gpu::Bindings gbuffer_bindings, accumulate_bindings, layer_bindings, tonemap_bindings;
+    std::optional<OrderSums> order_sums;
+    std::uint32_t folded_samples = 0;  ///< of the history, into order_sums
+    std::optional<AdaptiveRounds> rounds;
+    gpu::Bindings gbuffer_bindings, accumulate_bindings, layer_bindings, tonemap_bindings, folded_bindings;
+    gpu::Image folded_mean;  ///< of all rounds, for the display
     ViewRecord view{};
     RenderStatistics statistics;
 };
@@ -156,19 +174,29 @@ void Renderer::State::runEveryProgramOnce() {
     recordSamples(commands, 0, push);
     recordAccumulate(commands, programs->accumulate, accumulate_bindings, *history, push);
     if (settings.aovs.any()) recordLayers(commands, programs->layers, layer_bindings, *history, push);
-    recordTonemap(commands, programs->tonemap, tonemap_bindings, *history, TonemapPush{});
+    recordTonemap(commands, programs->tonemap, tonemap_bindings, history->mean_high, *history, TonemapPush{});
     commands.submit();
     commands.wait();
     std::memset(slots[0].counters.mapped(), 0, sizeof(CounterRecord));
+    if (order_sums) order_sums->restart();
 }
 
 void Renderer::State::resize(uvec2 size) {
     settings.size = size;
     history.reset();
     history.emplace(device, size, settings.aovs.any());
+    order_sums.reset();
+    folded_samples = 0;
+    if (settings.orders || settings.clamp > 0.0F) {
+        order_sums.emplace(device, size, settings.orders ? settings.bounces + 1U : 0U, settings.clamp > 0.0F);
+        history->order_sums = &order_sums->image();
+    }
+    rounds.reset();
+    if (settings.adaptive) rounds.emplace(device, size, settings.first_sample);
     std::vector<gpu::BoundResource> resources = gpu_scene.resources();
     for (const gpu::BoundResource& r : history->resources()) resources.push_back(r);
     resources.push_back({"FrameBlock", &frame_buffer});
+    resources.push_back({"AdaptiveTiles", rounds ? &rounds->records() : &frame_buffer});
     gbuffer_bindings = gpu::Bindings(device, programs->gbuffer, resources);
     accumulate_bindings = gpu::Bindings(device, programs->accumulate, resources);
     tonemap_bindings = gpu::Bindings(device, programs->tonemap, resources);
@@ -196,6 +224,7 @@ void Renderer::State::writeFrame(const ViewRecord& now, const ViewRecord& previo
     frame.bounces = settings.bounces;
     frame.roulette_start = settings.roulette_start;
     frame.seed = settings.seed;
+    frame.clamp_limit = settings.clamp;
     gpu_scene.describe(frame);
     std::memcpy(frame_buffer.mapped(), &frame, sizeof(frame));
 }
@@ -209,6 +238,8 @@ void Renderer::State::collect(Slot& slot) {
     statistics.shadow_rays += counts.shadow_rays;
     statistics.nonfinite_samples += counts.nonfinite_samples;
     statistics.cut_walks += counts.cut_walks;
+    statistics.environment_samples += counts.environment_samples;
+    statistics.environment_tries += counts.environment_tries;
 }
 
 Slot& Renderer::State::nextSlot() {
@@ -227,7 +258,7 @@ std::uint32_t Renderer::State::rowsPerSlice() const {
         for (const auto& [pass, time] : slot.commands.times())
             if (pass.starts_with("path")) seconds += time.seconds;
     }
-    const double rows_done = static_cast<double>(history->samples) * settings.size.y;
+    const double rows_done = static_cast<double>(statistics.primary_rays) / settings.size.x;
     const std::uint32_t most_rows = queues ? std::min(queues->mostRows(), settings.size.y) : settings.size.y;
     if (seconds <= 0.0 || rows_done <= 0.0) return std::min(most_rows, 128U);
     const double rows =
@@ -251,7 +282,8 @@ Renderer::~Renderer() {
 void Renderer::renderSample() {
     State& s = *state_;
     SamplePush push{};
-    push.sample_index = s.settings.first_sample + s.history->samples;
+    push.sample_index =
+        s.settings.first_sample + (s.rounds ? s.rounds->firstFrame() : 0U) + s.history->samples;
     if (push.sample_index < s.settings.first_sample || s.history->samples == 0xffffffffU)
         throw InputError("the samples of a pixel are numbered by 32 bits, and all of them are used");
     push.count_before = s.history->samples;
@@ -276,6 +308,38 @@ void Renderer::renderSample() {
     }
     ++s.history->samples;
     s.statistics.primary_rays += std::uint64_t{s.settings.size.x} * s.settings.size.y;
+    if (s.order_sums && !s.rounds && OrderSums::due(s.history->samples, s.folded_samples)) {
+        finish();
+        s.foldOrders();
+    }
+}
+
+void Renderer::State::foldOrders() {
+    if (folded_samples == history->samples) return;
+    order_sums->fold(history->samples - folded_samples);
+    folded_samples = history->samples;
+}
+
+void Renderer::beginRound(std::uint32_t samples) {
+    State& s = *state_;
+    assert(s.rounds && samples > 0);
+    finish();
+    s.rounds->begin(samples);
+    s.history->samples = 0;
+    s.history->aov_samples = 0;  // the layers are those of the last round's frames
+}
+
+bool Renderer::roundDone() const {
+    return state_->history->samples == state_->rounds->frames();
+}
+
+void Renderer::endRound() {
+    State& s = *state_;
+    finish();
+    s.rounds->end(s.history->samples, gpu::readImage(s.device, s.history->mean_high),
+                  gpu::readImage(s.device, s.history->squares_high));
+    if (s.order_sums) s.order_sums->fold(s.rounds->budget(), s.rounds->pixelCounts());
+    s.history->samples = 0;
 }
 
 void Renderer::finish() {
@@ -283,7 +347,8 @@ void Renderer::finish() {
 }
 
 std::uint32_t Renderer::samples() const {
-    return state_->history->samples;
+    const State& s = *state_;
+    return s.rounds ? static_cast<std::uint32_t>(s.rounds->samples(s.history->samples)) : s.history->samples;
 }
 
 void Renderer::setCamera(const Camera& camera) {
@@ -296,6 +361,9 @@ void Renderer::setCamera(const Camera& camera) {
     s.view = view;
     s.history->samples = 0;
     s.history->aov_samples = 0;
+    s.folded_samples = 0;
+    if (s.order_sums) s.order_sums->restart();
+    if (s.rounds) s.rounds->restart();
 }
 
 void Renderer::resize(uvec2 size) {
@@ -307,11 +375,18 @@ Film Renderer::readFilm() {
     State& s = *state_;
     finish();
     Film film;
-    film.size = s.settings.size;
-    film.samples = s.history->samples;
-    if (film.samples == 0) throw DeviceError("no sample has been rendered yet");
-    developBeauty(film, gpu::readImage(s.device, s.history->mean_high),
-                  gpu::readImage(s.device, s.history->squares_high));
+    if (s.rounds ? s.rounds->film().samples() == 0 : s.history->samples == 0)
+        throw DeviceError("no sample has been rendered yet");
+    if (s.rounds) {
+        film = s.rounds->film().film();
+    } else {
+        film.size = s.settings.size;
+        film.samples = s.history->samples;
+        developBeauty(film, gpu::readImage(s.device, s.history->mean_high),
+                      gpu::readImage(s.device, s.history->squares_high));
+        if (s.order_sums) s.foldOrders();
+    }
+    if (s.order_sums) s.order_sums->develop(film);
     if (s.settings.aovs.any())
         developLayers(
             film, s.settings.aovs, s.history->aov_samples, gpu::readImage(s.device, s.history->aov_albedo),
@@ -324,7 +399,21 @@ void Renderer::recordDisplay(gpu::Commands& commands, Tonemap curve, float expos
     TonemapPush push{};
     push.exposure = std::exp2(exposure_ev);
     push.curve = static_cast<uint>(curve);
-    recordTonemap(commands, s.programs->tonemap, s.tonemap_bindings, *s.history, push);
+    if (!s.rounds) {
+        recordTonemap(commands, s.programs->tonemap, s.tonemap_bindings, s.history->mean_high, *s.history,
+                      push);
+        return;
+    }
+    // The history holds the last round alone.
+    const Film film = s.rounds->film().film();
+    s.folded_mean = gpu::uploadImage(
+        s.device, "folded mean", {film.size.x, film.size.y}, VK_FORMAT_R32G32B32A32_SFLOAT,
+        std::as_bytes(std::span(film.mean.texels)), VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT);
+    s.folded_bindings =
+        gpu::Bindings(s.device, s.programs->tonemap,
+                      std::array<gpu::BoundResource, 2>{
+                          {{"mean_high", &s.folded_mean}, {"display_image", &s.history->display}}});
+    recordTonemap(commands, s.programs->tonemap, s.folded_bindings, s.folded_mean, *s.history, push);
 }
 
 Image Renderer::readDisplay(Tonemap curve, float exposure_ev) {
@@ -350,12 +439,17 @@ const gpu::Image& Renderer::displayImage() const {
     return state_->history->display;
 }
 
+std::vector<LightBatch> Renderer::lightBatches() const {
+    return state_->order_sums ? state_->order_sums->batches() : std::vector<LightBatch>{};
+}
+
 const Effects& Renderer::effects() const {
     return state_->effects;
 }
 
 RenderStatistics Renderer::statistics() const {
     RenderStatistics result = state_->statistics;
+    if (state_->order_sums) result.order_rays = state_->order_sums->rays();
     for (const Slot& slot : state_->slots) {
         for (const auto& [name, time] : slot.commands.times()) {
             result.passes[name].seconds += time.seconds;

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <glm/glm.hpp>
 #include <map>
 #include <memory>
 #include <string>
@@ -10,6 +11,7 @@
 #include "licht/image/image.h"
 #include "licht/scene/effects.h"
 #include "licht/scene/scene.h"
+#include "licht/shared/records.h"
 
 namespace licht {
 
@@ -24,8 +26,32 @@ struct AovSet {
 };
 
 /// How direct light is found. mis: next event estimation and scattering combined; hemisphere: scattering
-/// alone, the lecture's first form.
-enum class DirectLight : std::uint32_t { mis, hemisphere };
+/// alone, the rendering equation over directions; area: next event estimation alone, the equation over
+/// surfaces. What only one of them can find (a point light; a surface too large to be worth sampling) is
+/// found in every mode.
+enum class DirectLight : std::uint32_t {
+    mis = kDirectMis,
+    hemisphere = kDirectHemisphere,
+    area = kDirectArea
+};
+
+/// How mis weighs (Veach 1997): by the densities' squares or by the densities.
+enum class MisHeuristic : std::uint32_t { power, balance };
+
+/// How one light is picked of many: by a tree over where they are and whom they face, by their power, or all
+/// alike.
+enum class LightChoice : std::uint32_t { tree = kLightsTree, power = kLightsPower, uniform = kLightsUniform };
+
+/// How a direction towards the environment is drawn; all three have the same density.
+enum class EnvironmentSampling : std::uint32_t {
+    alias = kEnvironmentAlias,
+    inversion = kEnvironmentInversion,
+    rejection = kEnvironmentRejection
+};
+
+/// Where the numbers come from: an Owen-scrambled Sobol sequence, one whose errors are blue noise over the
+/// picture, or independent random numbers.
+enum class Sequence : std::uint32_t { sobol = kSamplerSobol, blue = kSamplerBlue, random = kSamplerRandom };
 
 struct RenderSettings {
     uvec2 size{960, 540};
@@ -34,6 +60,16 @@ struct RenderSettings {
     std::uint32_t seed = 0;
     std::uint32_t first_sample = 0;  ///< index of the first sample: ranges rendered apart merge to the whole
     DirectLight direct = DirectLight::mis;
+    MisHeuristic mis = MisHeuristic::power;
+    LightChoice lights = LightChoice::tree;
+    EnvironmentSampling environment_sampling = EnvironmentSampling::alias;
+    Sequence sampler = Sequence::sobol;
+    std::uint32_t blue_bits = 4;  ///< blue: log2 of the samples that are well spread together, at most 10
+    float clamp =
+        0.0F;  ///< cd/m^2 that one indirect contribution may add to a pixel; 0: unlimited (unbiased)
+    bool regularise = false;  ///< widen glossy lobes behind a first scattering (biased)
+    bool orders = false;      ///< keep a layer per order T^i Le
+    bool adaptive = false;    ///< samples are drawn where a mask says so
     AovSet aovs;
     bool all_effects =
         false;  ///< compile everything, called for or not (the reference for the specialised programs)
@@ -52,10 +88,21 @@ struct Film {
     std::uint32_t samples = 0;
     Image mean;      ///< RGBA: linear radiance, cd/m^2; alpha: share of samples that saw a surface or a sky
     Image variance;  ///< RGB: estimated variance of the mean above (zero while samples < 2)
+    Image counts;    ///< samples per pixel, where they differ; `samples` is then their mean
     Image albedo;    ///< RGB, when asked for
     Image normal;    ///< XYZ, unit or zero, when asked for
     Image depth;     ///< when asked for; infinite where nothing was hit
     Image motion;    ///< XY, when asked for
+    std::vector<Image> orders;  ///< RGB of T^i Le each, when asked for; they sum to the mean
+    Image lost;                 ///< RGB: what the clamp took, where it is on
+};
+
+/// Means over the picture, RGB in cd/m^2, of samples that followed one another: batches tell how sure the
+/// mean of all of them is.
+struct LightBatch {
+    std::uint32_t samples = 0;       ///< of every pixel
+    std::vector<glm::dvec3> orders;  ///< T^i Le
+    glm::dvec3 lost{0.0};            ///< what the clamp took
 };
 
 /// Merges two films of disjoint sample ranges (Chan, Golub, LeVeque 1979, Updating Formulae and a Pairwise
@@ -81,6 +128,11 @@ struct RenderStatistics {
     /// Samples in which a driver that limits the loops of a shader ended a BVH traversal early: they may have
     /// missed a surface.
     std::uint64_t cut_walks = 0;
+    /// Directions to the environment that rejection drew, and how many it tried for them.
+    std::uint64_t environment_samples = 0;
+    std::uint64_t environment_tries = 0;
+    std::vector<std::uint64_t>
+        order_rays;  ///< per order T^i Le, where they are kept: rays that looked for it
 };
 
 /// The frame, in order: gbuffer -> trace -> accumulate -> tonemap. Offscreen and windowed use the same one.
@@ -96,8 +148,15 @@ public:
     /// Records and submits one sample per pixel; returns while the device works, with at most two frames in
     /// flight.
     void renderSample();
+    /// settings.adaptive: samples are drawn in rounds of `samples` (at least one) per pixel on average,
+    /// spread as the noise of the rounds before calls for. renderSample() then renders a frame of the round,
+    /// in which some tiles take part; while the round is not done, end it only if it is the first.
+    void beginRound(std::uint32_t samples);
+    [[nodiscard]] bool roundDone() const;
+    void endRound();
     /// Waits for everything submitted.
     void finish();
+    /// Per pixel; on average where they differ, rounded down.
     [[nodiscard]] std::uint32_t samples() const;
 
     /// Moves the camera; the history starts anew when the view differs.
@@ -114,6 +173,8 @@ public:
     /// The image recordDisplay writes: R8G8B8A8_UNORM, already sRGB-encoded.
     [[nodiscard]] const gpu::Image& displayImage() const;
 
+    /// Of the samples that readFilm saw last, where orders are kept or the clamp is on; otherwise none.
+    [[nodiscard]] std::vector<LightBatch> lightBatches() const;
     [[nodiscard]] const Effects& effects() const;
     [[nodiscard]] RenderStatistics statistics() const;
 

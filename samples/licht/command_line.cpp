@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "licht/command/pilot.h"
 #include "licht/command/text.h"
 #include "licht/core/error.h"
 #include "licht/scenes/builtin.h"
@@ -79,15 +80,68 @@ void addLook(CLI::App& app, std::optional<uvec2>& size, std::optional<double>& e
     addDevice(app, device);
 }
 
-void addTransport(CLI::App& app, RenderSettings& settings) {
-    addValue(app, "--bounces", "N", "0: emission alone, 1: and direct light, and so on (default: 8)",
-             [&settings](std::string_view option, std::string_view text) {
-                 settings.bounces = parseCount32(option, text, 0, kMaxBounces);
-             });
+/// `automatic`: set by "--bounces auto"; null where that is not offered.
+void addTransport(CLI::App& app, RenderSettings& settings, bool* automatic) {
+    const std::string meaning = "0: emission alone, 1: and direct light, and so on (default: 8)";
+    addValue(
+        app, "--bounces", automatic != nullptr ? "N|auto" : "N",
+        automatic == nullptr
+            ? meaning
+            : meaning + fmt::format("; auto: by a small pilot, until what is missing is less than --error "
+                                    "(default: {}) of the light, at most {}",
+                                    kDefaultTailShare, kMostAutoBounces),
+        [&settings, automatic](std::string_view option, std::string_view text) {
+            if (automatic != nullptr) *automatic = text == "auto";
+            if (automatic == nullptr || !*automatic)
+                settings.bounces = parseCount32(option, text, 0, kMaxBounces);
+        });
     addValue(app, "--seed", "N", "Same seed, same picture, bit for bit (default: 0)",
              [&settings](std::string_view option, std::string_view text) {
                  settings.seed = parseCount32(option, text, 0, kMaxCount32);
              });
+}
+
+/// How the integral is sampled: every choice has the same mean, and each its own noise and cost.
+void addSampling(CLI::App& app, RenderSettings& settings) {
+    const std::string group = "Sampling (same mean, other noise)";
+    const auto add = [&app, &group](const std::string& name, const std::string& type,
+                                    const std::string& meaning, auto& value, auto parse) {
+        addValue(app, name, type, meaning, [&value, parse](std::string_view option, std::string_view text) {
+            value = parse(option, text);
+        })->group(group);
+    };
+    add("--direct", "HOW",
+        "Direct light by mis (lights and scattering combined), hemisphere (scattering alone) or area (lights "
+        "alone) (default: mis)",
+        settings.direct, parseDirectLight);
+    add("--mis", "HOW", "Weights of mis: power or balance heuristic (default: power)", settings.mis,
+        parseMisHeuristic);
+    add("--lights", "HOW",
+        "Pick one of many lights by tree (near and facing first), power or uniform (default: tree)",
+        settings.lights, parseLightChoice);
+    add("--environment-sampling", "HOW",
+        "Draw a direction to the environment by alias, inversion or rejection (default: alias)",
+        settings.environment_sampling, parseEnvironmentSampling);
+    add("--sampler", "HOW",
+        "Numbers from sobol (Owen-scrambled), blue (errors spread as blue noise, for few samples) or random "
+        "(default: sobol)",
+        settings.sampler, parseSequence);
+    app.add_flag("--adaptive", settings.adaptive,
+                 "Draw more samples where the noise is; --spp is then the mean over the pixels")
+        ->group(group);
+}
+
+/// Shortcuts that change the picture's mean; the report says by how much.
+void addBiased(CLI::App& app, RenderSettings& settings) {
+    const std::string group = "Biased shortcuts (the report says what they take)";
+    addValue(app, "--clamp", "LIMIT",
+             "Cut what one path finds after two or more scatterings down to this, in cd/m^2",
+             [&settings](std::string_view option, std::string_view text) {
+                 settings.clamp = parsePositiveFloat(option, text);
+             })
+        ->group(group);
+    app.add_flag("--regularise", settings.regularise, "Widen glossy lobes behind a path's first scattering")
+        ->group(group);
 }
 
 void addExpert(CLI::App& app, RenderSettings& settings) {
@@ -96,13 +150,6 @@ void addExpert(CLI::App& app, RenderSettings& settings) {
              "First bounce that may end a path by chance, keeping the mean (default: 8)",
              [&settings](std::string_view option, std::string_view text) {
                  settings.roulette_start = parseCount32(option, text, 0, kMaxCount32);
-             })
-        ->group(group);
-    addValue(app, "--direct", "HOW",
-             "Direct light by mis (lights and scattering combined) or hemisphere (scattering alone) "
-             "(default: mis)",
-             [&settings](std::string_view option, std::string_view text) {
-                 settings.direct = parseDirectLight(option, text);
              })
         ->group(group);
     addValue(app, "--first-sample", "N",
@@ -157,22 +204,24 @@ void addRender(CLI::App& app, RenderOptions& options) {
              [&options](std::string_view option, std::string_view text) {
                  options.error = parsePositive(option, text);
              });
-    addTransport(app, options.settings);
+    addTransport(app, options.settings, &options.auto_bounces);
     addValue(app, "--aov", "LIST",
-             "Layers for .exr outputs: all, or from albedo,normal,depth,motion,variance,sampleCount",
+             "Layers for .exr outputs: all, or from albedo,normal,depth,motion,variance,sampleCount,bounces",
              [&options](std::string_view option, std::string_view text) {
                  options.layers = parseLayers(option, text);
              });
     addValue(app, "--report", "FILE", "Write what was done and what it cost as JSON",
              [&options](std::string_view, std::string_view text) { options.report = text; });
     app.add_flag("--quiet", options.quiet, "Say nothing but errors");
+    addSampling(app, options.settings);
+    addBiased(app, options.settings);
     addExpert(app, options.settings);
 }
 
 void addView(CLI::App& app, ViewOptions& options) {
     addSource(app, options.source);
     addLook(app, options.size, options.exposure, options.tonemap, options.device, "as for render");
-    addTransport(app, options.settings);
+    addTransport(app, options.settings, nullptr);
     addValue(app, "--frames", "N", "Close after N frames (default: when the window is closed)",
              [&options](std::string_view option, std::string_view text) {
                  options.frames = parseCount(option, text, 1, std::numeric_limits<std::uint64_t>::max());
@@ -215,14 +264,36 @@ void addBench(CLI::App& app, BenchOptions& options) {
         "Where Embree is installed the same rays go through it on all cores, turn by turn with the device.");
 }
 
+void addCompare(CLI::App& app, CompareOptions& options) {
+    app.add_option("REFERENCE", options.reference, "The .exr file that is taken for the truth")
+        ->required()
+        ->type_name("");
+    app.add_option("PICTURE", options.pictures, "The .exr files to compare with it")
+        ->required()
+        ->type_name("");
+    addValue(app, "--json", "FILE", "Write all numbers as JSON",
+             [&options](std::string_view, std::string_view text) { options.json = text; });
+    app.footer(
+        "relMSE: mean over pixels and channels of (a-b)^2 / (b^2 + 0.01 m^2); a picture, b reference, m its "
+        "mean.\n"
+        "R/R, G/G, B/B: the picture's mean over the reference's.\n"
+        "Where both files have the layer variance, a z-test compares blocks of 16x16 pixels (block p: the "
+        "smallest)\n"
+        "and the whole (whole p); 'differs' marks a picture for which one is too small for chance.");
+}
+
 void checkTogether(const RenderOptions& options) {
     const auto isExr = [](const std::filesystem::path& path) {
         return lowerCase(path.extension().string()) == ".exr";
     };
     const AovSet& aovs = options.layers.aovs;
     const bool layers = aovs.any() || options.layers.variance || options.layers.sample_count;
-    if (layers && std::none_of(options.outputs.begin(), options.outputs.end(), isExr))
-        throw InputError("--aov: layers are stored in .exr files only: add -o FILE.exr");
+    const bool exr = std::any_of(options.outputs.begin(), options.outputs.end(), isExr);
+    if (layers && !exr) throw InputError("--aov: layers are stored in .exr files only: add -o FILE.exr");
+    if (options.layers.orders && !exr && !options.report)
+        throw InputError(
+            "--aov bounces: the layers are stored in .exr files and summed up in the report: add -o FILE.exr "
+            "or --report FILE");
     if (options.samples && *options.samples > kMaxCount32 - options.settings.first_sample)
         throw InputError(fmt::format("--first-sample {} and --spp {}: sample indices end at {}",
                                      options.settings.first_sample, *options.samples, kMaxCount32));
@@ -242,6 +313,7 @@ Command parseCommandLine(int argument_count, const char* const* arguments) {
     DevicesOptions devices;
     ViewOptions view;
     BenchOptions bench;
+    CompareOptions compare;
     CLI::App* render_app = app.add_subcommand("render", "Render a scene to files");
     addRender(*render_app, render);
     CLI::App* view_app = app.add_subcommand("view", "Look at a scene in a window");
@@ -254,6 +326,8 @@ Command parseCommandLine(int argument_count, const char* const* arguments) {
     CLI::App* devices_app =
         app.add_subcommand("devices", "List every Vulkan device, chosen or refused with all reasons");
     devices_app->add_flag("--json", devices.json, "As JSON");
+    CLI::App* compare_app = app.add_subcommand("compare", "Measure how far pictures are from a reference");
+    addCompare(*compare_app, compare);
 
     try {
         app.parse(argument_count, arguments);
@@ -268,9 +342,13 @@ Command parseCommandLine(int argument_count, const char* const* arguments) {
     if (devices_app->parsed()) return devices;
     if (view_app->parsed()) return view;
     if (bench_app->parsed()) return bench;
+    if (compare_app->parsed()) return compare;
     if (!render_app->parsed())
-        throw InputError("a subcommand is needed: render, view, info, bench or devices (see 'licht --help')");
+        throw InputError(
+            "a subcommand is needed: render, view, info, bench, devices or compare (see 'licht --help')");
     checkTogether(render);
+    render.settings.orders = render.layers.orders;
+    render.settings.blue_bits = blueBitsFor(render.samples);
     return render;
 }
 

@@ -11,8 +11,8 @@ struct PrintedText {
     std::string text;
 };
 
-using Command =
-    std::variant<PrintedText, RenderOptions, InfoOptions, DevicesOptions, ViewOptions, BenchOptions>;
+using Command = std::variant<PrintedText, RenderOptions, InfoOptions, DevicesOptions, ViewOptions,
+                             BenchOptions, CompareOptions>;
 
 /// Throws InputError of one line on wrong usage.
 Command parseCommandLine(int argument_count, const char* const* arguments);

@@ -9,5 +9,6 @@ int view(const ViewOptions& options);
 int info(const InfoOptions& options);
 int bench(const BenchOptions& options);
 int devices(const DevicesOptions& options);
+int compare(const CompareOptions& options);
 
 }  // namespace licht

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cassert>
 #include <charconv>
 #include <cmath>
@@ -23,6 +24,23 @@ constexpr std::array<std::pair<std::string_view, Tonemap>, 4> kTonemaps{
 
 constexpr std::array<std::pair<std::string_view, BvhQuality>, 3> kQualities{
     {{"fast", BvhQuality::fast}, {"balanced", BvhQuality::balanced}, {"best", BvhQuality::best}}};
+
+constexpr std::array<std::pair<std::string_view, DirectLight>, 3> kDirectLights{
+    {{"mis", DirectLight::mis}, {"hemisphere", DirectLight::hemisphere}, {"area", DirectLight::area}}};
+
+constexpr std::array<std::pair<std::string_view, MisHeuristic>, 2> kMisHeuristics{
+    {{"power", MisHeuristic::power}, {"balance", MisHeuristic::balance}}};
+
+constexpr std::array<std::pair<std::string_view, LightChoice>, 3> kLightChoices{
+    {{"tree", LightChoice::tree}, {"power", LightChoice::power}, {"uniform", LightChoice::uniform}}};
+
+constexpr std::array<std::pair<std::string_view, EnvironmentSampling>, 3> kEnvironmentSamplings{
+    {{"alias", EnvironmentSampling::alias},
+     {"inversion", EnvironmentSampling::inversion},
+     {"rejection", EnvironmentSampling::rejection}}};
+
+constexpr std::array<std::pair<std::string_view, Sequence>, 3> kSequences{
+    {{"sobol", Sequence::sobol}, {"blue", Sequence::blue}, {"random", Sequence::random}}};
 
 [[noreturn]] void refuse(std::string_view option, std::string_view text, std::string_view allowed) {
     throw InputError(fmt::format("{} '{}': must be {}", option, oneLine(text), allowed));
@@ -108,6 +126,12 @@ double parsePositive(std::string_view option, std::string_view text) {
     refuse(option, text, "a number greater than 0");
 }
 
+float parsePositiveFloat(std::string_view option, std::string_view text) {
+    const auto value = wholeNumber<float>(text);
+    if (value && std::isfinite(*value) && *value > 0.0F) return *value;
+    refuse(option, text, "a number greater than 0");
+}
+
 double parseExposure(std::string_view option, std::string_view text) {
     const auto value = wholeNumber<double>(text);
     if (value && std::abs(*value) <= kMaxExposure) return *value;
@@ -144,19 +168,60 @@ std::string_view qualityName(BvhQuality quality) {
 }
 
 DirectLight parseDirectLight(std::string_view option, std::string_view text) {
-    return choose(option, text,
-                  std::array<std::pair<std::string_view, DirectLight>, 2>{
-                      {{"mis", DirectLight::mis}, {"hemisphere", DirectLight::hemisphere}}});
+    return choose(option, text, kDirectLights);
+}
+
+std::string_view nameOf(DirectLight direct) {
+    return nameOf(direct, kDirectLights);
+}
+
+MisHeuristic parseMisHeuristic(std::string_view option, std::string_view text) {
+    return choose(option, text, kMisHeuristics);
+}
+
+std::string_view nameOf(MisHeuristic heuristic) {
+    return nameOf(heuristic, kMisHeuristics);
+}
+
+LightChoice parseLightChoice(std::string_view option, std::string_view text) {
+    return choose(option, text, kLightChoices);
+}
+
+std::string_view nameOf(LightChoice choice) {
+    return nameOf(choice, kLightChoices);
+}
+
+EnvironmentSampling parseEnvironmentSampling(std::string_view option, std::string_view text) {
+    return choose(option, text, kEnvironmentSamplings);
+}
+
+std::string_view nameOf(EnvironmentSampling sampling) {
+    return nameOf(sampling, kEnvironmentSamplings);
+}
+
+Sequence parseSequence(std::string_view option, std::string_view text) {
+    return choose(option, text, kSequences);
+}
+
+std::string_view nameOf(Sequence sequence) {
+    return nameOf(sequence, kSequences);
+}
+
+std::uint32_t blueBitsFor(std::optional<std::uint32_t> samples) {
+    constexpr std::uint32_t kUnknown = 4, kMost = 10;
+    if (!samples) return kUnknown;
+    return std::min(static_cast<std::uint32_t>(std::bit_width(*samples - 1)), kMost);
 }
 
 Layers parseLayers(std::string_view option, std::string_view text) {
     Layers layers;
-    const std::array<std::pair<std::string_view, bool*>, 6> names{{{"albedo", &layers.aovs.albedo},
+    const std::array<std::pair<std::string_view, bool*>, 7> names{{{"albedo", &layers.aovs.albedo},
                                                                    {"normal", &layers.aovs.normal},
                                                                    {"depth", &layers.aovs.depth},
                                                                    {"motion", &layers.aovs.motion},
                                                                    {"variance", &layers.variance},
-                                                                   {"sampleCount", &layers.sample_count}}};
+                                                                   {"sampleCount", &layers.sample_count},
+                                                                   {"bounces", &layers.orders}}};
     if (text == "all") {
         for (const auto& [name, wanted] : names) *wanted = true;
         return layers;

@@ -33,6 +33,7 @@ struct Layers {
     AovSet aovs;
     bool variance = false;
     bool sample_count = false;
+    bool orders = false;  ///< one per order T^i Le
 };
 
 struct RenderOptions {
@@ -42,6 +43,7 @@ struct RenderOptions {
     std::optional<std::uint32_t> samples;
     std::optional<double> seconds;
     std::optional<double> error;
+    bool auto_bounces = false;       ///< a pilot chooses settings.bounces
     RenderSettings settings;         ///< size and aovs are filled in from the fields beside it
     std::optional<double> exposure;  ///< EV; none: the scene's
     Tonemap tonemap = Tonemap::neutral;
@@ -73,6 +75,12 @@ struct DevicesOptions {
     bool json = false;
 };
 
+struct CompareOptions {
+    std::filesystem::path reference;
+    std::vector<std::filesystem::path> pictures;
+    std::optional<std::filesystem::path> json;
+};
+
 struct ViewOptions {
     SceneRequest source;
     std::optional<uvec2> size;
@@ -95,6 +103,8 @@ std::uint32_t parseCount32(std::string_view option, std::string_view text, std::
                            std::uint32_t highest);
 /// Finite and greater than zero.
 double parsePositive(std::string_view option, std::string_view text);
+/// The same, as a float.
+float parsePositiveFloat(std::string_view option, std::string_view text);
 /// An exposure value in stops, -64 to 64: beyond, 2^EV and a float radiance soon have no common range.
 double parseExposure(std::string_view option, std::string_view text);
 /// "R,G,B": finite, not negative.
@@ -105,7 +115,20 @@ std::string_view qualityName(BvhQuality quality);
 Tonemap parseTonemap(std::string_view option, std::string_view text);
 /// As parseTonemap reads it.
 std::string_view tonemapName(Tonemap curve);
+/// How light is sought; a name is as its parser reads it.
 DirectLight parseDirectLight(std::string_view option, std::string_view text);
+std::string_view nameOf(DirectLight direct);
+MisHeuristic parseMisHeuristic(std::string_view option, std::string_view text);
+std::string_view nameOf(MisHeuristic heuristic);
+LightChoice parseLightChoice(std::string_view option, std::string_view text);
+std::string_view nameOf(LightChoice choice);
+EnvironmentSampling parseEnvironmentSampling(std::string_view option, std::string_view text);
+std::string_view nameOf(EnvironmentSampling sampling);
+Sequence parseSequence(std::string_view option, std::string_view text);
+std::string_view nameOf(Sequence sequence);
+/// log2 of the samples that sampler blue spreads well together, for a picture of that many per pixel; 4 where
+/// that is not known.
+std::uint32_t blueBitsFor(std::optional<std::uint32_t> samples);
 /// "albedo,normal,..." or "all".
 Layers parseLayers(std::string_view option, std::string_view text);
 /// A path that ends in .png or .exr.

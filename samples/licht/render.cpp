@@ -1,20 +1,24 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <optional>
 #include <span>
 
+#include "licht/command/adaptive_loop.h"
 #include "licht/command/commands.h"
 #include "licht/command/exr_layers.h"
 #include "licht/command/process_clock.h"
 #include "licht/command/render_loop.h"
 #include "licht/command/report.h"
 #include "licht/command/scene_source.h"
+#include "licht/command/series_report.h"
 #include "licht/command/text.h"
 #include "licht/core/file.h"
 #include "licht/image/files.h"
+#include "licht/shared/queue_records.h"
 
 namespace licht {
 namespace {
@@ -49,6 +53,13 @@ Image opaquePicture(const Image& rgba) {
     return rgb;
 }
 
+glm::dvec3 pictureMean(const Film& film) {
+    glm::dvec3 sum(0.0);
+    for (std::size_t i = 0; i + 3 < film.mean.texels.size(); i += 4)
+        sum += glm::dvec3(film.mean.texels[i], film.mean.texels[i + 1], film.mean.texels[i + 2]);
+    return sum / (static_cast<double>(film.size.x) * film.size.y);
+}
+
 void describeRun(RenderReport& report, const gpu::Device& device, const Renderer& renderer,
                  const LoopResult& result) {
     report.device = device.report().name;
@@ -60,10 +71,40 @@ void describeRun(RenderReport& report, const gpu::Device& device, const Renderer
     report.error = result.error;
     report.effects = renderer.effects().names();
     report.device_peak_bytes = device.devicePeakBytes();
+    report.mean = pictureMean(result.film);
+    report.light = renderer.lightBatches();
+    if (!result.film.counts.texels.empty()) {
+        const auto [fewest, most] =
+            std::minmax_element(result.film.counts.texels.begin(), result.film.counts.texels.end());
+        report.fewest_samples = static_cast<std::uint32_t>(*fewest);
+        report.most_samples = static_cast<std::uint32_t>(*most);
+    }
+}
+
+/// What must be known before the picture is begun: how deep to follow the light, and what a shortcut takes.
+void runPilots(const RenderOptions& options, gpu::Device& device, const Scene& scene, const Camera& camera,
+               RenderReport& report) {
+    if (options.auto_bounces) {
+        const std::uint32_t most =
+            options.settings.queues ? std::min(kMostQueueBounces, kMostAutoBounces) : kMostAutoBounces;
+        report.depth = chooseDepth(device, scene, camera, report.settings,
+                                   options.error.value_or(kDefaultTailShare), most);
+        report.settings.bounces = report.depth->bounces;
+        if (!report.depth->reached && !options.quiet)
+            fmt::print(stderr,
+                       "licht: warning: --bounces auto: no depth up to {} leaves less than {} of the light; "
+                       "{} are followed\n",
+                       most, report.depth->wanted_share, report.depth->bounces);
+    }
+    if (options.settings.regularise)
+        report.regularisation = measureRegularisation(device, scene, camera, report.settings);
 }
 
 /// What makes a picture doubtful is said, not only reported.
-void warnOfDoubts(const RenderStatistics& statistics) {
+void warnOfDoubts(const RenderReport& report) {
+    const RenderStatistics& statistics = report.statistics;
+    if (const std::string bias = biasLine(report); !bias.empty())
+        fmt::print(stderr, "licht: warning: the picture is biased: {}\n", bias);
     if (statistics.nonfinite_samples > 0)
         fmt::print(stderr, "licht: warning: {} samples were no finite number and count as black\n",
                    statistics.nonfinite_samples);
@@ -103,12 +144,14 @@ int render(const RenderOptions& options) {
     gpu::DeviceOptions device_options;
     device_options.device = options.device;
     gpu::Device device(device_options);
+    runPilots(options, device, source.scene, shot.camera, report);
     Renderer renderer(device, source.scene, shot.camera, report.settings);
     if (!options.quiet) printWarnings(source.scene);
 
     InterruptWatch interrupt;
     std::optional<ProgressLine> progress(std::in_place, stderr, options.quiet);
-    const LoopResult result = renderUntil(renderer, stopRules(options), interrupt, *progress);
+    const auto loop = options.settings.adaptive ? renderAdaptively : renderUntil;
+    const LoopResult result = loop(renderer, stopRules(options), interrupt, *progress);
     progress.reset();
     interrupt.shield();
 
@@ -123,7 +166,7 @@ int render(const RenderOptions& options) {
         if (!options.quiet) fmt::print("wrote {} ({}x{})\n", output.string(), shot.size.x, shot.size.y);
     }
     report.statistics = renderer.statistics();
-    if (!options.quiet) warnOfDoubts(report.statistics);
+    if (!options.quiet) warnOfDoubts(report);
     report.host_peak_bytes = hostPeakBytes();
     report.total_seconds = secondsSinceProcessStart();
     if (options.report) {

@@ -12,6 +12,8 @@ double secondsSince(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+}  // namespace
+
 ProgressState progressOf(const StopRules& rules, const Advance& advance) {
     ProgressState state;
     state.samples = advance.samples;
@@ -21,8 +23,6 @@ ProgressState progressOf(const StopRules& rules, const Advance& advance) {
     state.seconds_left = secondsLeft(rules, advance);
     return state;
 }
-
-}  // namespace
 
 LoopResult renderUntil(Renderer& renderer, const StopRules& rules, const InterruptWatch& interrupt,
                        ProgressLine& progress) {

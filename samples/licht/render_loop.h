@@ -14,6 +14,9 @@ struct LoopResult {
     Film film;
 };
 
+/// What the progress line shows.
+ProgressState progressOf(const StopRules& rules, const Advance& advance);
+
 /// Renders sample after sample until a rule is met; at least one.
 LoopResult renderUntil(Renderer& renderer, const StopRules& rules, const InterruptWatch& interrupt,
                        ProgressLine& progress);

@@ -5,6 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "licht/command/series_report.h"
+
 namespace licht {
 namespace {
 
@@ -22,6 +24,21 @@ ordered_json passesJson(const RenderStatistics& statistics) {
     ordered_json passes = ordered_json::object();
     for (const auto& [name, time] : statistics.passes) passes[name] = time.seconds;
     return passes;
+}
+
+ordered_json samplingJson(const RenderSettings& settings) {
+    ordered_json sampling{{"direct", nameOf(settings.direct)},
+                          {"mis", nameOf(settings.mis)},
+                          {"lights", nameOf(settings.lights)},
+                          {"environment_sampling", nameOf(settings.environment_sampling)},
+                          {"sampler", nameOf(settings.sampler)}};
+    if (settings.sampler == Sequence::blue) sampling["blue_samples"] = std::uint64_t{1} << settings.blue_bits;
+    return sampling;
+}
+
+ordered_json adaptiveJson(const RenderReport& report) {
+    if (!report.settings.adaptive) return nullptr;
+    return {{"fewest_samples", report.fewest_samples}, {"most_samples", report.most_samples}};
 }
 
 }  // namespace
@@ -45,6 +62,10 @@ std::string reportJson(const RenderReport& report) {
     json["first_sample"] = report.settings.first_sample;
     json["seed"] = report.settings.seed;
     json["bounces"] = report.settings.bounces;
+    json["bounces_auto"] = depthJson(report);
+    json["sampling"] = samplingJson(report.settings);
+    json["adaptive"] = adaptiveJson(report);
+    json["declared_bias"] = biasJson(report);
     json["stopped_by"] = stopName(report.stopped_by);
     json["interrupted"] = report.stopped_by == Stop::interrupt;
     json["seconds"] = {{"load", report.load_seconds},
@@ -61,8 +82,13 @@ std::string reportJson(const RenderReport& report) {
     json["rays_per_second"] =
         report.render_seconds > 0.0 ? static_cast<double>(report.rays()) / report.render_seconds : 0.0;
     json["relative_error"] = report.error >= 0.0 ? ordered_json(report.error) : ordered_json(nullptr);
+    json["orders"] = ordersJson(report);
+    json["tail"] = tailJson(report);
     json["nonfinite_samples"] = statistics.nonfinite_samples;
     json["cut_walks"] = statistics.cut_walks;
+    if (statistics.environment_samples > 0)
+        json["environment_tries_per_sample"] = static_cast<double>(statistics.environment_tries) /
+                                               static_cast<double>(statistics.environment_samples);
     json["effects"] = report.effects;
     json["memory"] = {{"host_peak_bytes", report.host_peak_bytes},
                       {"device_bytes", report.device_peak_bytes},
@@ -76,6 +102,7 @@ std::string reportJson(const RenderReport& report) {
 }
 
 std::vector<std::pair<std::string, std::string>> reportAttributes(const RenderReport& report) {
+    const std::string bias = biasLine(report);
     return {{"licht.version", LICHT_VERSION},
             {"licht.scene", report.scene},
             {"licht.camera", report.camera},
@@ -83,6 +110,13 @@ std::vector<std::pair<std::string, std::string>> reportAttributes(const RenderRe
             {"licht.firstSample", fmt::format("{}", report.settings.first_sample)},
             {"licht.seed", fmt::format("{}", report.settings.seed)},
             {"licht.bounces", fmt::format("{}", report.settings.bounces)},
+            {"licht.direct", std::string(nameOf(report.settings.direct))},
+            {"licht.mis", std::string(nameOf(report.settings.mis))},
+            {"licht.lights", std::string(nameOf(report.settings.lights))},
+            {"licht.environmentSampling", std::string(nameOf(report.settings.environment_sampling))},
+            {"licht.sampler", std::string(nameOf(report.settings.sampler))},
+            {"licht.adaptive", report.settings.adaptive ? "yes" : "no"},
+            {"licht.declaredBias", bias.empty() ? "none" : bias},
             {"licht.device", report.device},
             {"licht.driver", report.driver},
             {"licht.relativeError", report.error >= 0.0 ? fmt::format("{:.6g}", report.error) : "unknown"},

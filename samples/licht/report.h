@@ -1,11 +1,13 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "licht/command/options.h"
+#include "licht/command/pilot.h"
 #include "licht/command/render_loop.h"
 #include "licht/command/scene_source.h"
 #include "licht/gpu/device.h"
@@ -28,6 +30,12 @@ struct RenderReport {
     double total_seconds = 0.0;  ///< from process start until the pictures were written
     double error = -1.0;         ///< negative: unknown
     RenderStatistics statistics;
+    glm::dvec3 mean{0.0};                       ///< of the picture, cd/m^2
+    std::vector<LightBatch> light;              ///< where orders are kept or the clamp is on
+    std::optional<DepthChoice> depth;           ///< of --bounces auto
+    std::optional<BiasMeasure> regularisation;  ///< where it is on
+    std::uint32_t fewest_samples = 0;           ///< of a pixel, where adaptive
+    std::uint32_t most_samples = 0;
     std::vector<std::string> effects;
     std::uint64_t host_peak_bytes = 0;
     std::uint64_t device_peak_bytes = 0;

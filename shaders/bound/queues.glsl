@@ -2,9 +2,9 @@
 // Megakernels Considered Harmful: Wavefront Path Tracing on GPUs). Written as storage, read as texels.
 #ifndef LICHT_BOUND_QUEUES_GLSL
 #define LICHT_BOUND_QUEUES_GLSL
+#include "bound/adaptive.glsl"
 #include "bound/gbuffer.glsl"
-#include "bound/path.glsl"
-#include "bound/sample_store.glsl"
+#include "bound/orders.glsl"
 #include "shared/queue_records.h"
 
 layout(push_constant) uniform Push { QueuePush push; };
@@ -36,10 +36,12 @@ uvec4 pathBits(uint path, uint texel) { return texelFetch(queue_path_texels, int
 
 uint rayCountOf(uint path) { return pathBits(path, 2u).w >> 16u; }
 
+void addressPixel(uvec2 pixel) { g_address = SampleAddress(pixel, sampleIndexOf(pixel, frame.view.size.x, push.sample_index), frame.seed); }
+
 // Whose rays are traced from here on.
 void addressPath(uint path, uint rays_before) {
     uint pixel = pathBits(path, 3u).w;
-    g_address = SampleAddress(uvec2(pixel & 0xffffu, pixel >> 16u), push.sample_index, frame.seed);
+    addressPixel(uvec2(pixel & 0xffffu, pixel >> 16u));
     g_rays_before = rays_before;
 }
 
@@ -50,7 +52,7 @@ Path loadPath(uint path) {
     p.scatter_pdf = uintBitsToFloat(d.w);
     p.throughput = uintBitsToFloat(t.xyz);
     p.bounce = t.w & 0xffffu;
-    p.from = uintBitsToFloat(f.xyz);
+    p.from = LightAsker(uintBitsToFloat(f.xyz), pathBits(path, 4u).w);
     return p;
 }
 
@@ -58,14 +60,20 @@ void storePath(uint path, Path p, uint rays_before, uvec2 pixel) {
     uint at = path * kPathTexels;
     queue_paths[at + 1u] = uvec4(floatBitsToUint(p.wo), floatBitsToUint(p.scatter_pdf));
     queue_paths[at + 2u] = uvec4(floatBitsToUint(p.throughput), p.bounce | (rays_before << 16u));
-    queue_paths[at + 3u] = uvec4(floatBitsToUint(p.from), pixel.x | (pixel.y << 16u));
+    queue_paths[at + 3u] = uvec4(floatBitsToUint(p.from.position), pixel.x | (pixel.y << 16u));
 }
 
 void storeHit(uint path, Hit hit) { queue_paths[path * kPathTexels] = uvec4(hit.instance, hit.primitive, floatBitsToUint(hit.b1), floatBitsToUint(hit.b2)); }
 
 vec3 radianceOf(uint path) { return uintBitsToFloat(pathBits(path, 4u).xyz); }
 
-void storeRadiance(uint path, vec3 radiance) { queue_paths[path * kPathTexels + 4u] = uvec4(floatBitsToUint(radiance), 0u); }
+// With the normal of the vertex before, which shares the texel.
+void storeRadiance(uint path, vec3 radiance, uint from_normal) { queue_paths[path * kPathTexels + 4u] = uvec4(floatBitsToUint(radiance), from_normal); }
+
+void addRadiance(uint path, vec3 radiance) {
+    uvec4 found = pathBits(path, 4u);
+    storeRadiance(path, uintBitsToFloat(found.xyz) + radiance, found.w);
+}
 
 // Paths are numbered by the tiles of 8 by 8 pixels that started them.
 uint pathOfThread() { return (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * kQueueGroup + gl_LocalInvocationIndex; }

@@ -1,6 +1,7 @@
 // One sample of a pixel, and what is counted beside it.
 #ifndef LICHT_BOUND_SAMPLE_STORE_GLSL
 #define LICHT_BOUND_SAMPLE_STORE_GLSL
+#include "bound/environment.glsl"
 #include "bound/visibility.glsl"
 
 layout(rgba32f, binding = 21) uniform writeonly image2D radiance_image;
@@ -12,6 +13,13 @@ bool finite(vec3 c) { return all(lessThan(floatBitsToUint(c) & 0x7f800000u, uvec
 void countCutWalk() {
     if (bvh_walk_cut) atomicAdd(counters.cut_walks, 1u);
     bvh_walk_cut = false;
+}
+
+// What rejection took for all directions that this invocation has drawn.
+void countEnvironmentTries() {
+    if (!kEnvironment || kEnvironmentSampling != kEnvironmentRejection || g_environment_samples == 0u) return;
+    atomicAdd(counters.environment_samples, g_environment_samples);
+    atomicAdd(counters.environment_tries, g_environment_tries);
 }
 
 // A sample that is no number counts as black and is reported, never hidden.

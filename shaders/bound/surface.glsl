@@ -40,7 +40,7 @@ bool covers(uint instance, uint primitive, float b1, float b2, float u) {
 float coverageNumber(SampleAddress address, uint rays_before, uint instance, uint triangle) {
     uint key = triangle * 0x9e3779b9u;
     if (kInstances) key ^= placementKey(instance);
-    return sample4(SampleAddress(address.pixel, address.index, address.seed ^ key), kDimensionAlpha + rays_before).x;
+    return random4(SampleAddress(address.pixel, address.index, address.seed ^ key), kDimensionAlpha + rays_before).x;
 }
 
 // glTF's normal map: tangent space of the interpolated normal and the vertices' tangents.

@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // The history: mean and variance of every pixel, all samples weighted alike.
+#include "bound/adaptive.glsl"
 #include "pure/running_mean.glsl"
 #include "shared/records.h"
 
@@ -15,6 +16,7 @@ layout(rgba32f, binding = 25) uniform image2D squares_low;
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(pixel, imageSize(mean_high)))) return;
+    if (!isSampled(uvec2(pixel), uint(imageSize(mean_high).x), push.sample_index)) return;
     // The first sample selects zeros instead of branching: lavapipe compiles a program anew for each value of a push constant that
     // decides a branch. What the images hold before the first sample is anything, so a product with zero would not do.
     bvec4 fresh = bvec4(push.count_before == 0u);

@@ -1,9 +1,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // One sample per pixel: from the G-buffer's hit along a whole path.
+#include "bound/adaptive.glsl"
 #include "bound/gbuffer.glsl"
-#include "bound/path.glsl"
-#include "bound/sample_store.glsl"
+#include "bound/orders.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 72) const uint kPathsPerThread = 1u;  // kConstantPathsPerThread
@@ -43,8 +43,12 @@ void main() {
             }
             if (left == 0u || pixel.y >= rows_end) break;
             --left;
-            begun = true;
-            g_address = SampleAddress(pixel, push.sample_index, frame.seed);
+            begun = isSampled(pixel, frame.view.size.x, push.sample_index);
+            if (!begun) {
+                pixel.y += gl_WorkGroupSize.y;
+                continue;
+            }
+            g_address = SampleAddress(pixel, sampleIndexOf(pixel, frame.view.size.x, push.sample_index), frame.seed);
             g_rays_before = 1u;  // the rasteriser's was the first
             Hit hit = gbufferHit(ivec2(pixel));
             p = beginPath(hit, gbufferWo(hit, ivec2(pixel), push.sample_index));
@@ -52,6 +56,7 @@ void main() {
         }
         if (p.hit.instance != kNoIndex) extendAndTrace(p, counts);
     }
+    countEnvironmentTries();
     atomicAdd(s_bounce_rays, counts.bounce_rays);
     atomicAdd(s_shadow_rays, counts.shadow_rays);
     barrier();

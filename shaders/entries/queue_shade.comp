@@ -19,7 +19,8 @@ void main() {
         addressPath(path, rays_before);
         p = loadPath(path);
         direct = extendPath(p, light_ray, path_ray);
-        if (kEmission || kUnlit) storeRadiance(path, radianceOf(path) + p.radiance);
+        countEnvironmentTries();
+        storeRadiance(path, radianceOf(path) + p.radiance, p.from.normal);
         if (path_ray.wanted) storePath(path, p, rays_before + (light_ray.wanted ? 2u : 1u), g_address.pixel);
     }
     uint at = kShadowTexels * appendTo(push.bounce, kCountShadows, light_ray.wanted);

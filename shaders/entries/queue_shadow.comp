@@ -13,6 +13,6 @@ void main() {
     uvec4 o = texelFetch(queue_shadow_texels, at), d = texelFetch(queue_shadow_texels, at + 1), c = texelFetch(queue_shadow_texels, at + 2);
     uint path = d.w;
     addressPath(path, c.w);
-    if (!occluded(uintBitsToFloat(o.xyz), uintBitsToFloat(d.xyz), uintBitsToFloat(o.w))) storeRadiance(path, radianceOf(path) + uintBitsToFloat(c.xyz));
+    if (!occluded(uintBitsToFloat(o.xyz), uintBitsToFloat(d.xyz), uintBitsToFloat(o.w))) addRadiance(path, foundLight(push.bounce + 1u, uintBitsToFloat(c.xyz)));
     countCutWalk();
 }

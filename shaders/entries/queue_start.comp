@@ -11,12 +11,13 @@ void main() {
     uvec2 pixel = pixelOfThread();
     uint path = pathOfThread();
     bool hits = false;
-    if (insideSlice(pixel)) {
+    if (insideSlice(pixel) && isSampled(pixel, frame.view.size.x, push.sample_index)) {
+        addressPixel(pixel);
         Hit hit = gbufferHit(ivec2(pixel));
         Path p = beginPath(hit, gbufferWo(hit, ivec2(pixel), push.sample_index));
         hits = hit.instance != kNoIndex;
         if (!hits) endInSky(p);
-        storeRadiance(path, p.radiance);
+        storeRadiance(path, p.radiance, p.from.normal);
         storePath(path, p, 1u, pixel);  // the rasteriser's ray was the first
         storeHit(path, hit);
     }

@@ -22,7 +22,7 @@ void main() {
         } else if (kEnvironment) {
             Path p = loadPath(path);
             endInSky(p);
-            storeRadiance(path, radianceOf(path) + p.radiance);
+            addRadiance(path, p.radiance);
         }
         countCutWalk();
     }

@@ -32,6 +32,9 @@ void onRay(vec3 origin, vec3 direction, float t_max, bool any_hit) {
     }
 }
 
+void onLight(uint order, vec3 kept, vec3 lost) {}
+void onRays(uint order, uint rays) {}
+
 // The ray that the rasteriser stands for.
 RayRecord primaryRay(vec2 pixel_position) {
     vec3 direction = -directionToCamera(frame.view, pixel_position);

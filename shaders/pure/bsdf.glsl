@@ -39,6 +39,13 @@ Bsdf plainBsdf(vec3 diffuse, float alpha, vec3 f0, float f90, float dielectric_f
 
 Bsdf lambertBsdf(vec3 albedo) { return plainBsdf(albedo, 1.0, vec3(0.0), 0.0, 0.0, 0.0); }
 
+// Biased: a narrow lobe behind another scattering makes rare bright paths, a wider one blurs what only they would show. The widths are those of pbrt-v4
+// (Pharr, Jakob, Humphreys 2023, Physically Based Rendering, section 14.2.3, path regularization).
+Bsdf regularised(Bsdf b) {
+    if (b.alpha < 0.3) b.alpha = clamp(2.0 * b.alpha, 0.1, 0.3);
+    return b;
+}
+
 float largest(vec3 c) { return max(c.x, max(c.y, c.z)); }
 
 bool hasFilm(Bsdf b) { return kIridescence && b.film.strength > 0.0; }

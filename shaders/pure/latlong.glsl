@@ -11,11 +11,12 @@ vec2 latlongFromDirection(vec3 d) {
     return vec2(0.5 + atan(d.x, -d.z) * (0.5 * kInvPi), theta * kInvPi);
 }
 
-// The direction with cos(theta) = y at longitude u.
-vec3 directionFromLatlong(float u, float y) {
+// The direction with cos(theta) = y and sin(theta) = s at longitude u.
+vec3 directionFromLatlong(float u, float y, float s) {
     vec2 c = unitCircle(fract(u + 0.5));
-    float s = sqrt(max((1.0 - y) * (1.0 + y), 0.0));
     return vec3(s * c.y, y, -s * c.x);
 }
+
+vec3 directionFromLatlong(float u, float y) { return directionFromLatlong(u, y, sqrt(max((1.0 - y) * (1.0 + y), 0.0))); }
 
 #endif

@@ -166,9 +166,13 @@ TEST(Render, AllLayersUnderTheirNames) {
     const ScratchFolder folder;
     runWell(folder, {"render", "cornell", "--size", "16x16", "--spp", "3", "-o", "a.exr", "--aov", "all"});
     const ExrPicture picture = readExr(folder.path() / "a.exr");
-    EXPECT_EQ(channelNames(picture),
-              (Words{"A", "B", "G", "N.X", "N.Y", "N.Z", "R", "Z", "albedo.B", "albedo.G", "albedo.R",
-                     "motion.X", "motion.Y", "sampleCount", "variance.B", "variance.G", "variance.R"}));
+    Words names{"A", "B", "G", "N.X", "N.Y", "N.Z", "R", "Z", "albedo.B", "albedo.G", "albedo.R"};
+    for (int order = 0; order <= 8; ++order)
+        for (const char* channel : {"B", "G", "R"})
+            names.push_back("bounces." + std::to_string(order) + "." + channel);
+    names.insert(names.end(),
+                 {"motion.X", "motion.Y", "sampleCount", "variance.B", "variance.G", "variance.R"});
+    EXPECT_EQ(channelNames(picture), names);
     for (const float count : picture.find("sampleCount")->values) EXPECT_EQ(count, 3.0F);
     for (const char* channel : {"variance.R", "albedo.G"})
         for (const float value : picture.find(channel)->values) EXPECT_GE(value, 0.0F) << channel;
@@ -176,6 +180,146 @@ TEST(Render, AllLayersUnderTheirNames) {
     EXPECT_EQ(attribute(picture, "licht.spp"), "3");
     EXPECT_EQ(attribute(picture, "licht.bounces"), "8");
     EXPECT_NE(attribute(picture, "licht.device"), "(none)");
+}
+
+TEST(Render, OrdersAreReportedWithShareTimeAndTail) {
+    for (const bool queues : {false, true}) {
+        const ScratchFolder folder;
+        Words words{"render", "furnace", "--size", "32x24", "--spp",   "4",        "--bounces",
+                    "5",      "-o",      "a.png",  "--aov", "bounces", "--report", "report.json"};
+        if (queues) words.push_back("--queues");
+        runWell(folder, words);
+        const json report = json::parse(folder.read("report.json"));
+        const json& orders = report.at("orders");
+        ASSERT_EQ(orders.size(), 6U);
+        double shares = 0.0;
+        for (std::size_t i = 0; i < 6; ++i) {
+            EXPECT_EQ(orders[i].at("order"), i);
+            // Le r^i of albedo and emission one half; every factor is a power of two.
+            EXPECT_NEAR(orders[i].at("mean")[1].get<double>(), std::pow(0.5, static_cast<double>(i) + 1.0),
+                        1e-7);
+            EXPECT_EQ(orders[i].at("rays"), 32 * 24 * 4);
+            EXPECT_GT(orders[i].at("seconds").get<double>(), 0.0) << i;
+            EXPECT_NEAR(orders[i].at("standard_error").get<double>(), 0.0, 1e-9);
+            EXPECT_EQ(orders[i].at("seconds_by"), queues ? "passes" : "rays");
+            shares += orders[i].at("share").get<double>();
+        }
+        EXPECT_NEAR(shares, 1.0, 1e-9);
+        // Behind five bounces 2^-6 of all light is still to come.
+        EXPECT_NEAR(report.at("tail").at("share").get<double>(), 1.0 / 64.0, 1e-6);
+        EXPECT_NEAR(report.at("tail").at("ratio").get<double>(), 0.5, 1e-6);
+    }
+}
+
+TEST(Render, BouncesAreChosenByTheErrorAskedFor) {
+    const ScratchFolder folder;
+    runWell(folder, {"render", "furnace", "--size", "16x12", "--spp", "1", "--bounces", "auto", "-o", "a.exr",
+                     "--report", "report.json"});
+    const json report = json::parse(folder.read("report.json"));
+    EXPECT_EQ(report.at("bounces"), 6);
+    EXPECT_EQ(report.at("bounces_auto").at("reached"), true);
+    EXPECT_NEAR(report.at("bounces_auto").at("tail").at("share").get<double>(), 1.0 / 128.0, 1e-6);
+    EXPECT_GT(report.at("bounces_auto").at("pilot_seconds").get<double>(), 0.0);
+    const ExrPicture picture = readExr(folder.path() / "a.exr");
+    EXPECT_EQ(attribute(picture, "licht.bounces"), "6");
+    for (const float value : picture.find("R")->values) EXPECT_NEAR(value, 1.0F - 1.0F / 128.0F, 1e-5F);
+}
+
+TEST(Render, SamplingSettingsAreNamed) {
+    const ScratchFolder folder;
+    runWell(folder, {"render",
+                     "cornell",
+                     "--size",
+                     "16x16",
+                     "--spp",
+                     "5",
+                     "--direct",
+                     "area",
+                     "--mis",
+                     "balance",
+                     "--lights",
+                     "power",
+                     "--environment-sampling",
+                     "rejection",
+                     "--sampler",
+                     "blue",
+                     "-o",
+                     "a.exr",
+                     "--report",
+                     "report.json"});
+    const json report = json::parse(folder.read("report.json"));
+    EXPECT_EQ(report.at("sampling"), json({{"direct", "area"},
+                                           {"mis", "balance"},
+                                           {"lights", "power"},
+                                           {"environment_sampling", "rejection"},
+                                           {"sampler", "blue"},
+                                           {"blue_samples", 8}}));
+    for (const char* none : {"adaptive", "declared_bias", "orders", "tail", "bounces_auto"})
+        EXPECT_TRUE(report.at(none).is_null()) << none;
+    const ExrPicture picture = readExr(folder.path() / "a.exr");
+    EXPECT_EQ(attribute(picture, "licht.direct"), "area");
+    EXPECT_EQ(attribute(picture, "licht.mis"), "balance");
+    EXPECT_EQ(attribute(picture, "licht.lights"), "power");
+    EXPECT_EQ(attribute(picture, "licht.environmentSampling"), "rejection");
+    EXPECT_EQ(attribute(picture, "licht.sampler"), "blue");
+    EXPECT_EQ(attribute(picture, "licht.declaredBias"), "none");
+}
+
+TEST(Render, ShortcutsAreDeclared) {
+    const ScratchFolder folder;
+    const Outcome outcome =
+        runWell(folder, {"render", "cornell", "--size", "24x24", "--spp", "4", "--clamp", "0.05",
+                         "--regularise", "-o", "a.exr", "--report", "report.json"});
+    const std::string said = "biased: clamp 0.05 cd/m^2 took";
+    const std::vector<std::string> lines = outcome.errorLines();
+    EXPECT_EQ(std::count_if(lines.begin(), lines.end(),
+                            [&](const std::string& line) { return line.find(said) != std::string::npos; }),
+              1)
+        << outcome.err;
+    const json bias = json::parse(folder.read("report.json")).at("declared_bias");
+    const json& clamp = bias.at("clamp");
+    for (std::size_t c = 0; c < 3; ++c) EXPECT_GT(clamp.at("lost")[c].get<double>(), 0.0);
+    EXPECT_GT(clamp.at("share").get<double>(), 0.0);
+    EXPECT_LT(clamp.at("share").get<double>(), 1.0);
+    EXPECT_EQ(bias.at("regularise").at("change"), 0.0) << "nothing is glossy in the box";
+    EXPECT_NE(attribute(readExr(folder.path() / "a.exr"), "licht.declaredBias"), "none");
+}
+
+TEST(Render, AdaptiveSamplesDifferFromPixelToPixel) {
+    const ScratchFolder folder;
+    runWell(folder, {"render", "cornell", "--size", "32x32", "--spp", "24", "--adaptive", "-o", "a.exr", "-o",
+                     "a.png", "--aov", "sampleCount,variance", "--report", "report.json"});
+    const json report = json::parse(folder.read("report.json"));
+    EXPECT_EQ(report.at("spp"), 24);
+    EXPECT_EQ(report.at("stopped_by"), "spp");
+    EXPECT_GT(report.at("relative_error").get<double>(), 0.0);
+    const ExrPicture picture = readExr(folder.path() / "a.exr");
+    const std::vector<float>& counts = picture.find("sampleCount")->values;
+    const auto [fewest, most] = std::minmax_element(counts.begin(), counts.end());
+    EXPECT_LT(*fewest, *most);
+    EXPECT_EQ(report.at("adaptive").at("fewest_samples"), *fewest);
+    EXPECT_EQ(report.at("adaptive").at("most_samples"), *most);
+    double sum = 0.0;
+    for (const float count : counts) sum += static_cast<double>(count);
+    // Each round leaves at most half a sample of its last tile over, a sixteenth of the picture.
+    EXPECT_NEAR(sum / 1024.0, 24.0, 2 * 0.5 / 16.0);
+}
+
+TEST(Render, AdaptiveStopsByTimeAndByError) {
+    const ScratchFolder folder;
+    const auto report = [&folder](const Words& rule) {
+        Words words{"render", "cornell", "--size", "16x16", "--adaptive", "--report", "report.json"};
+        words.insert(words.end(), rule.begin(), rule.end());
+        runWell(folder, words);
+        return json::parse(folder.read("report.json"));
+    };
+    const json by_time = report({"--time", "0.5"});
+    EXPECT_EQ(by_time.at("stopped_by"), "time");
+    EXPECT_GE(by_time.at("spp").get<int>(), 2);
+    const json by_error = report({"--error", "0.2"});
+    EXPECT_EQ(by_error.at("stopped_by"), "error");
+    EXPECT_LE(by_error.at("relative_error").get<double>(), 0.2);
+    EXPECT_EQ(report({"--spp", "1"}).at("spp"), 1);
 }
 
 TEST(Render, SomeLayersOnly) {
@@ -242,6 +386,20 @@ TEST_P(InterruptTest, WritesWhatIsThere) {
     EXPECT_GE(report.at("spp").get<int>(), 1);
     EXPECT_TRUE(allFinite(readExr(folder.path() / "a.exr"), "R"));
     EXPECT_EQ(decodeImage(readFile(folder.path() / "a.png"), "a.png").width, 64);
+}
+
+TEST(Interrupt, AdaptiveKeepsItsWholeRounds) {
+    const ScratchFolder folder;
+    RunningProgram program(folder, {"render", "cornell", "--size", "64x64", "--adaptive", "--spp",
+                                    "4294967295", "-o", "a.exr", "--report", "report.json"});
+    ASSERT_TRUE(program.waitUntilCatches(SIGINT));
+    program.send(SIGINT);
+    const Outcome outcome = program.wait();
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    const json report = json::parse(folder.read("report.json"));
+    EXPECT_EQ(report.at("stopped_by"), "interrupt");
+    EXPECT_GE(report.at("spp").get<int>(), 1);
+    EXPECT_TRUE(allFinite(readExr(folder.path() / "a.exr"), "R"));
 }
 
 INSTANTIATE_TEST_SUITE_P(Cli, InterruptTest, testing::Values(SIGINT, SIGTERM),

@@ -29,6 +29,22 @@ TEST(ParsePositive, RefusesZeroAndWhatIsNotFinite) {
         EXPECT_THROW(parsePositive("--time", bad), InputError) << bad;
 }
 
+TEST(ParsePositiveFloat, RefusesWhatAFloatDoesNotHold) {
+    EXPECT_EQ(parsePositiveFloat("--clamp", "0.25"), 0.25F);
+    for (const char* bad : {"", "0", "-1", "inf", "nan", "1e39", "1e-60", "1,0"})
+        EXPECT_THROW(parsePositiveFloat("--clamp", bad), InputError) << bad;
+}
+
+TEST(BlueBits, CoverTheSamplesOfAPixel) {
+    EXPECT_EQ(blueBitsFor(std::nullopt), 4U);
+    EXPECT_EQ(blueBitsFor(1U), 0U);
+    EXPECT_EQ(blueBitsFor(2U), 1U);
+    EXPECT_EQ(blueBitsFor(5U), 3U);
+    EXPECT_EQ(blueBitsFor(8U), 3U);
+    EXPECT_EQ(blueBitsFor(1024U), 10U);
+    EXPECT_EQ(blueBitsFor(4294967295U), 10U);
+}
+
 TEST(ParseExposure, TakesBothSigns) {
     EXPECT_DOUBLE_EQ(parseExposure("--exposure", "-2.5"), -2.5);
     for (const char* bad : {"", "65", "-65", "nan", "inf"})
@@ -44,10 +60,11 @@ TEST(ParseColour, TakesThreeNumbers) {
 TEST(ParseLayers, TakesNamesOrAll) {
     const Layers some = parseLayers("--aov", "albedo,sampleCount");
     EXPECT_TRUE(some.aovs.albedo && some.sample_count);
-    EXPECT_FALSE(some.aovs.normal || some.aovs.depth || some.aovs.motion || some.variance);
+    EXPECT_FALSE(some.aovs.normal || some.aovs.depth || some.aovs.motion || some.variance || some.orders);
     const Layers all = parseLayers("--aov", "all");
     EXPECT_TRUE(all.aovs.albedo && all.aovs.normal && all.aovs.depth && all.aovs.motion && all.variance &&
-                all.sample_count);
+                all.sample_count && all.orders);
+    EXPECT_TRUE(parseLayers("--aov", "bounces").orders);
     for (const char* bad : {"", "albedo,", "Albedo", "albedo,all"})
         EXPECT_THROW(parseLayers("--aov", bad), InputError) << bad;
 }

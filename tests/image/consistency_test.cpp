@@ -145,14 +145,14 @@ TEST(Effects, AbsentOnesOwnNoBuffers) {
     };
     const std::vector<std::string> cornell = absent("cornell");
     for (const char* name : {"Tangents", "Colors", "ExtraUvs", "Textures", "SrgbTable", "texel_pages",
-                             "EnvironmentAlias", "InstanceTransforms"})
+                             "LightTree", "InstanceTransforms"})
         EXPECT_EQ(std::count(cornell.begin(), cornell.end(), name), 1) << name;
     const std::vector<std::string> furnace = absent("furnace");
     for (const char* name : {"Lights", "LightAlias"})
         EXPECT_EQ(std::count(furnace.begin(), furnace.end(), name), 1) << name;
     const std::vector<std::string> gallery = absent("gallery");
     for (const char* name :
-         {"Tangents", "Textures", "SrgbTable", "texel_pages", "EnvironmentAlias", "Lights", "LightAlias"})
+         {"Tangents", "Textures", "SrgbTable", "texel_pages", "LightTree", "Lights", "LightAlias"})
         EXPECT_EQ(std::count(gallery.begin(), gallery.end(), name), 0) << name;
 }
 

@@ -1,0 +1,27 @@
+// Where light came from: sums over samples of every order T^i Le, and of what the clamp took. Tiles of the picture's size stand side by side in one
+// image; a pixel is written by the one path that is followed for it.
+#ifndef LICHT_BOUND_ORDERS_GLSL
+#define LICHT_BOUND_ORDERS_GLSL
+#include "bound/path.glsl"
+#include "bound/sample_store.glsl"
+
+layout(constant_id = 40) const uint kOrders = 0u;  // kConstantOrders
+layout(rgba32f, binding = 90) uniform image2D order_sums;  // RGB: light; A: rays
+
+void addToTile(uint tile, vec4 value) {
+    uvec2 size = frame.view.size;
+    uint columns = uint(imageSize(order_sums).x) / size.x;
+    ivec2 at = ivec2(uvec2(tile % columns, tile / columns) * size + g_address.pixel);
+    imageStore(order_sums, at, imageLoad(order_sums, at) + value);
+}
+
+void onLight(uint order, vec3 kept, vec3 lost) {
+    if (kClamp && largest(lost) > 0.0 && finite(lost)) addToTile(kLostTile, vec4(lost, 0.0));
+    if (order < kOrders && largest(kept) > 0.0 && finite(kept)) addToTile(order + (kClamp ? kLostTile + 1u : 0u), vec4(kept, 0.0));
+}
+
+void onRays(uint order, uint rays) {
+    if (order < kOrders && rays > 0u) addToTile(order + (kClamp ? kLostTile + 1u : 0u), vec4(vec3(0.0), float(rays)));
+}
+
+#endif
