@@ -44,6 +44,8 @@ struct RenderSettings {
     bool queues = false;  ///< small kernels with queues between them instead of one kernel: the same samples
     std::uint32_t paths_per_thread =
         0;  ///< that a thread follows one after the other; 0: as suits the device
+    std::uint32_t rays_per_thread =
+        0;  ///< of a queue that a thread traces; more than one: in lanes that are refilled; 0: as suits the device
 };
 
 /// What was accumulated so far, on the host. Planes are width * height, from the top left.

@@ -33,26 +33,33 @@ Hit hitOf(TraceHit t) {
     return Hit(instance, uint(bvhTriangleTexel(texel + 2u).w), t.b1, t.b2);
 }
 
-// Nearest surface, or with any_hit some surface, that is there for this ray. Coverage is asked once per surface and not inside the traversal,
-// because drivers without branches would filter textures in every step of it.
+// Is what was hit not there for this ray? Then only what comes behind it counts from here on. Coverage is asked once per surface and not inside the
+// traversal, because drivers without branches would filter textures in every step of it.
+bool passesThrough(TraceHit found) {
+    if (!kAlpha || found.position == kNoIndex) return false;
+    Hit hit = hitOf(found);
+    if ((instanceAt(hit.instance).flags & kInstanceAlpha) == 0u) return false;
+    uint triangle = instanceAt(hit.instance).first_triangle + hit.primitive;
+    if (covers(hit.instance, hit.primitive, hit.b1, hit.b2, coverageNumber(g_address, g_rays_before, hit.instance, triangle))) return false;
+    g_after_t = found.t;
+    g_after_instance = found.instance;
+    g_after_triangle = triangle;
+    return true;
+}
+
+// Nearest surface, or with any_hit some surface, that is there for this ray.
 Hit trace(vec3 origin, vec3 direction, float t_max, bool any_hit) {
     onRay(origin, direction, t_max, any_hit);
     g_after_t = -1.0;
     float t_min = 0.0;
-    Hit hit;
+    TraceHit found;
     while (true) {
-        TraceHit found = traceRay(origin, direction, t_min, t_max, any_hit && !kAlpha);
-        hit = hitOf(found);
-        if (!kAlpha || hit.instance == kNoIndex || (instanceAt(hit.instance).flags & kInstanceAlpha) == 0u) break;
-        uint triangle = instanceAt(hit.instance).first_triangle + hit.primitive;
-        if (covers(hit.instance, hit.primitive, hit.b1, hit.b2, coverageNumber(g_address, g_rays_before, hit.instance, triangle))) break;
+        found = traceRay(origin, direction, t_min, t_max, any_hit && !kAlpha);
+        if (!passesThrough(found)) break;
         t_min = found.t;
-        g_after_t = found.t;
-        g_after_instance = found.instance;
-        g_after_triangle = triangle;
     }
     ++g_rays_before;
-    return hit;
+    return hitOf(found);
 }
 
 // The point moved off its plane towards `direction` by the bound of its error, so that a ray from there cannot meet the plane again.
