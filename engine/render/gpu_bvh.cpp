@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "licht/core/error.h"
-#include "licht/render/lanes.h"
 #include "licht/shared/records.h"
 
 namespace licht {
@@ -16,7 +15,6 @@ GpuBvh::GpuBvh(gpu::Device& device, std::span<const BvhNode> nodes, std::span<co
             VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT,
             gpu::Memory::device),
       max_stack_(std::max(max_stack, 1U)),
-      lockstep_(runsInLockstep(device)),
       bytes_(nodes.size_bytes() + triangles.size_bytes()) {
     const std::uint64_t most_bytes = std::max(nodes.size_bytes(), triangles.size_bytes());
     in_storage_ = storage || !fitTexelBuffer(most_bytes, device.limits());
@@ -44,7 +42,6 @@ void GpuBvh::addTo(std::vector<gpu::BoundResource>& resources) const {
 void GpuBvh::addTo(gpu::SpecConstants& constants) const {
     constants[kConstantBvhInStorage] = in_storage_ ? 1U : 0U;
     constants[kConstantBvhStackSize] = max_stack_;
-    constants[kConstantLockstep] = lockstep_ ? 1U : 0U;
 }
 
 bool fitTexelBuffer(std::uint64_t bytes, const VkPhysicalDeviceLimits& limits) {

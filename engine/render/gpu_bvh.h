@@ -28,7 +28,6 @@ private:
     gpu::Buffer none_, nodes_, triangles_;
     gpu::TexelView nodes_view_, triangles_view_;
     uint max_stack_ = 1;
-    bool lockstep_ = false;
     bool in_storage_ = false;
     std::uint64_t bytes_ = 0;
 };

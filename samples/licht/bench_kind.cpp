@@ -32,7 +32,8 @@ void countSteps(const BenchScene& scene, const RayList& list, BenchKind& result)
     for (std::size_t i = 0; i < list.rays.size(); i += stride) {
         const RayRecord& r = list.rays[i];
         TraversalSteps steps;
-        intersect(scene.bvh, scene.triangles, Ray{r.origin, r.direction, r.t_min, r.t_max}, &steps);
+        intersect(scene.bvh, scene.triangles, Ray{r.origin, r.direction, r.t_min, r.t_max}, &steps,
+                  list.any_hit);
         nodes += steps.nodes;
         triangles += steps.triangles;
         ++rays;

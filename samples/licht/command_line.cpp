@@ -90,7 +90,7 @@ void addTransport(CLI::App& app, RenderSettings& settings) {
              });
 }
 
-void addExpert(CLI::App& app, RenderSettings& settings) {
+void addExpert(CLI::App& app, RenderSettings& settings, QueueUse& queues) {
     const std::string group = "Expert options";
     addValue(app, "--roulette", "BOUNCE",
              "First bounce that may end a path by chance, keeping the mean (default: 8)",
@@ -121,9 +121,12 @@ void addExpert(CLI::App& app, RenderSettings& settings) {
                  settings.bvh_quality = parseQuality(option, text);
              })
         ->group(group);
-    app.add_flag(
-           "--queues", settings.queues,
-           "Follow paths by small kernels with queues between them instead of one kernel: the same samples")
+    // A flag, so that a value stands behind a "=" and a scene may follow it.
+    const std::string queues_meaning =
+        "Follow paths by small kernels with queues between them instead of one kernel, the same samples: "
+        "--queues=on, off or auto, where it pays (default: auto)";
+    app.add_flag("--queues{on}", queues_meaning)
+        ->each([&queues](const std::string& text) { queues = parseQueueUse("--queues", text); })
         ->group(group);
     app.add_flag("--flatten-instances", settings.flatten_instances,
                  "Store every instance of a mesh as triangles of its own")
@@ -166,7 +169,7 @@ void addRender(CLI::App& app, RenderOptions& options) {
     addValue(app, "--report", "FILE", "Write what was done and what it cost as JSON",
              [&options](std::string_view, std::string_view text) { options.report = text; });
     app.add_flag("--quiet", options.quiet, "Say nothing but errors");
-    addExpert(app, options.settings);
+    addExpert(app, options.settings, options.queues);
 }
 
 void addView(CLI::App& app, ViewOptions& options) {

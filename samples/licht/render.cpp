@@ -9,12 +9,14 @@
 #include "licht/command/commands.h"
 #include "licht/command/exr_layers.h"
 #include "licht/command/process_clock.h"
+#include "licht/command/queue_choice.h"
 #include "licht/command/render_loop.h"
 #include "licht/command/report.h"
 #include "licht/command/scene_source.h"
 #include "licht/command/text.h"
 #include "licht/core/file.h"
 #include "licht/image/files.h"
+#include "licht/render/lanes.h"
 
 namespace licht {
 namespace {
@@ -103,6 +105,8 @@ int render(const RenderOptions& options) {
     gpu::DeviceOptions device_options;
     device_options.device = options.device;
     gpu::Device device(device_options);
+    report.settings.queues =
+        chooseQueues(options.queues, report.settings, stopRules(options), raysPerThread(device) > 1);
     Renderer renderer(device, source.scene, shot.camera, report.settings);
     if (!options.quiet) printWarnings(source.scene);
 

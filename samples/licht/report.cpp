@@ -45,6 +45,7 @@ std::string reportJson(const RenderReport& report) {
     json["first_sample"] = report.settings.first_sample;
     json["seed"] = report.settings.seed;
     json["bounces"] = report.settings.bounces;
+    json["queues"] = report.settings.queues;
     json["stopped_by"] = stopName(report.stopped_by);
     json["interrupted"] = report.stopped_by == Stop::interrupt;
     json["seconds"] = {{"load", report.load_seconds},

@@ -8,8 +8,6 @@
 #ifndef LICHT_BOUND_RAY_LIST_GLSL
 #define LICHT_BOUND_RAY_LIST_GLSL
 
-layout(constant_id = 81) const uint kRaysPerThread = 1u;  // kConstantRaysPerThread; more than one: lanes are refilled
-
 // Of eight lanes, when new rays are set up. Measured on lavapipe, share of Embree on the terrain's first bounces: 2 lanes 0.59, 3 0.63, 4 0.62.
 const uint kIdleOfEight = 3u;
 
@@ -21,10 +19,9 @@ uint traceOneEach(uint count, bool any_hit) {
         vec3 origin, direction;
         float t_min, t_max;
         takeRay(gl_GlobalInvocationID.x, origin, direction, t_min, t_max);
-        bool again = true;
-        while (again) {
+        while (true) {
             found = traceRay(origin, direction, t_min, t_max, any_hit);
-            again = passesThrough(found);
+            if (!passesThrough(found)) break;
             t_min = found.t;
         }
     }
@@ -70,6 +67,6 @@ uint traceShare(uint count, bool any_hit) {
     return (have ? 1u : 0u) + (subgroupElect() && next < end ? end - next : 0u);
 }
 
-uint traceList(uint count, bool any_hit) { return kRaysPerThread > 1u ? traceShare(count, any_hit) : traceOneEach(count, any_hit); }
+uint traceList(uint count, bool any_hit) { return kRefilled ? traceShare(count, any_hit) : traceOneEach(count, any_hit); }
 
 #endif

@@ -13,8 +13,9 @@
 layout(constant_id = 64) const bool kBvhInStorage = false;
 // Bvh::max_stack: no traversal of that tree holds more entries.
 layout(constant_id = 65) const uint kBvhStackSize = 64u;
-// Lanes run in lockstep on a CPU (kConstantLockstep).
-layout(constant_id = 74) const bool kLockstep = false;
+// kConstantRaysPerThread; more than one: lanes are refilled (ray_list.glsl), as suits devices that run them in lockstep.
+layout(constant_id = 81) const uint kRaysPerThread = 1u;
+const bool kRefilled = kRaysPerThread > 1u;
 
 // Positions from here on are instances.
 layout(constant_id = 70) const uint kFirstInstancePosition = 0xffffffffu;
@@ -210,7 +211,7 @@ struct Walk {
     uint base;           // entries below belong to the world, which the ray has left for an object
 };
 
-uint bvh_stack[kBvhStackSize + 1u];  // one more, because kLockstep writes behind the last entry
+uint bvh_stack[kBvhStackSize + 1u];  // one more, because kRefilled writes behind the last entry
 
 bool walks(Walk w) { return w.current != kBvhNone || w.triangles != 0u || (kInstances && bvh_instance != kNoIndex); }
 
@@ -335,8 +336,9 @@ void stepInstance(inout Walk w, uint instance_met) {
 void walkOn(inout Walk w, bool any_hit) {
     uint waited = w.waiting;
     bool below = w.current != kBvhNone && w.more_triangles == 0u && stepNode(w);
-    // Stores of single lanes are branches, which a CPU foretells badly: all of them at once are 2 to 6 % of a walk faster (lavapipe).
-    if (kLockstep || below) bvh_stack[w.stacked] = waited;
+    // A CPU stores lane by lane behind branches that it foretells badly: where nearly all lanes walk, storing for all of them makes walks 2 to 6 %
+    // faster (lavapipe). Where many idle it costs as much.
+    if (kRefilled || below) bvh_stack[w.stacked] = waited;
     w.stacked += below ? 1u : 0u;
     uint instance_met = kBvhNone;
     if (w.triangles != 0u) instance_met = stepTriangle(w, any_hit);

@@ -24,7 +24,7 @@ void takeRay(uint i, out vec3 origin, out vec3 direction, out float t_min, out f
 void giveHit(bool gives, TraceHit found) {
     bool hits = gives && found.position != kNoIndex;
     if (hits) {
-        storeHit(g_path, hitOf(found));
+        storeHit(g_path, g_hit);
     } else if (gives && kEnvironment) {
         Path p = loadPath(g_path);
         endInSky(p);

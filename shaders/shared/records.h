@@ -202,7 +202,6 @@ LICHT_CONSTANT uint kConstantInstanceSlack = 71u;  // the bits of a float
 LICHT_CONSTANT uint kConstantFirstInstanceTexel = 79u;
 LICHT_CONSTANT uint kConstantPathsPerThread = 72u;
 LICHT_CONSTANT uint kConstantSceneInStorage = 73u;
-LICHT_CONSTANT uint kConstantLockstep = 74u;
 
 // Counted on the device, summed on the host.
 struct CounterRecord {
