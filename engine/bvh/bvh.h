@@ -73,8 +73,9 @@ struct TraversalSteps {
     std::uint32_t triangles = 0;
     std::uint32_t stack = 0;  ///< the most entries that waited at once
 };
+/// any_hit: the first hit that is found ends the walk, as for the device's shadow rays.
 std::optional<BvhHit> intersect(const Bvh& bvh, std::span<const BvhTriangle> triangles, const Ray& ray,
-                                TraversalSteps* steps);
+                                TraversalSteps* steps, bool any_hit = false);
 
 /// The naive reference: every triangle, one after the other.
 std::optional<BvhHit> intersectBruteForce(std::span<const BvhTriangle> triangles, const Ray& ray);

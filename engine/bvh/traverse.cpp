@@ -95,7 +95,7 @@ private:
 }  // namespace
 
 std::optional<BvhHit> intersect(const Bvh& bvh, std::span<const BvhTriangle> triangles, const Ray& ray,
-                                TraversalSteps* steps) {
+                                TraversalSteps* steps, bool any_hit) {
     const std::optional<RaySetup> setup = setUpRay(ray, nodeBounds(bvh.nodes.front()));
     if (!setup) {
         return std::nullopt;
@@ -106,12 +106,13 @@ std::optional<BvhHit> intersect(const Bvh& bvh, std::span<const BvhTriangle> tri
     std::vector<Group> waiting;
     waiting.reserve(bvh.max_stack);
     std::uint32_t current = 0;
-    while (current != kBvhNone) {
+    const auto enough = [&] { return any_hit && nearest.result().has_value(); };
+    while (current != kBvhNone && !enough()) {
         const BvhNode& node = bvh.nodes[current];
         Met met = boxes.childrenMet(node, nearest.reach());
         ++counted.nodes;
-        counted.triangles += static_cast<std::uint32_t>(met.triangle_count);
-        for (std::size_t i = 0; i < met.triangle_count; ++i) {
+        for (std::size_t i = 0; i < met.triangle_count && !enough(); ++i) {
+            ++counted.triangles;
             const std::uint32_t id = bvh.triangle_ids[met.triangles[i]];
             if (const std::optional<TriangleHit> hit = testTriangle(*setup, triangles[id])) {
                 nearest.offer(id, *hit);

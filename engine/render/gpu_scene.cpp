@@ -322,7 +322,8 @@ void GpuScene::uploadLights(const Scene& scene, const Effects& effects, const In
     const Image black(1, 1, 3);
     const Image& map = present ? scene.environment->radiance : black;
     const EnvironmentTable drawn =
-        present ? buildEnvironmentTable(*scene.environment, options.environment_sampling) : EnvironmentTable{};
+        present ? buildEnvironmentTable(*scene.environment, options.environment_sampling)
+                : EnvironmentTable{};
     const uint limit = device_->limits().maxImageDimension2D;
     if (std::max({static_cast<uint>(map.width), static_cast<uint>(map.height), drawn.size.x}) > limit)
         throw InputError(
@@ -338,10 +339,9 @@ void GpuScene::uploadLights(const Scene& scene, const Effects& effects, const In
         VK_FORMAT_R32G32B32A32_SFLOAT, std::as_bytes(std::span(texels)), VK_IMAGE_USAGE_SAMPLED_BIT);
     environment_peak_ = drawn.peak;
     environment_sampling_ = options.environment_sampling;
-    environment_table_ = gpu::uploadImage(
-        *device_, "environment_table", {drawn.size.x, drawn.size.y},
-        drawn.words == 4 ? VK_FORMAT_R32G32B32A32_UINT : VK_FORMAT_R32_UINT,
-        std::as_bytes(std::span(drawn.texels)), VK_IMAGE_USAGE_SAMPLED_BIT);
+    environment_table_ = gpu::uploadImage(*device_, "environment_table", {drawn.size.x, drawn.size.y},
+                                          drawn.words == 4 ? VK_FORMAT_R32G32B32A32_UINT : VK_FORMAT_R32_UINT,
+                                          std::as_bytes(std::span(drawn.texels)), VK_IMAGE_USAGE_SAMPLED_BIT);
 }
 
 std::vector<gpu::BoundResource> GpuScene::resources() const {

@@ -25,7 +25,7 @@ public:
         bool storage_buffers = false;
         BvhQuality bvh_quality = BvhQuality::balanced;
         LightChoice lights = LightChoice::tree;
-        EnvironmentSampling environment_sampling = EnvironmentSampling::alias;
+        EnvironmentSampling environment_sampling = EnvironmentSampling::inversion;
     };
 
     /// Throws InputError, with the numbers, where the scene is larger than the device's buffers may be.

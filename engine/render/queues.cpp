@@ -5,7 +5,9 @@
 #include <algorithm>
 
 #include "licht/core/error.h"
+#include "licht/render/lanes.h"
 #include "licht/shared/queue_records.h"
+#include "licht/shared/ray_records.h"
 #include "licht/spirv/queue_finish_comp.h"
 #include "licht/spirv/queue_prepare_comp.h"
 #include "licht/spirv/queue_shade_comp.h"
@@ -26,30 +28,21 @@ std::uint32_t tiles(std::uint32_t pixels) {
     return (pixels + kTile - 1) / kTile;
 }
 
-// Not a core feature; lavapipe and all GPUs of the last ten years have it.
-void requireBallots(const gpu::Device& device) {
-    VkPhysicalDeviceSubgroupProperties subgroups{};
-    subgroups.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES;
-    VkPhysicalDeviceProperties2 properties{};
-    properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
-    properties.pNext = &subgroups;
-    vkGetPhysicalDeviceProperties2(device.physicalDevice(), &properties);
-    if ((subgroups.supportedOperations & VK_SUBGROUP_FEATURE_BALLOT_BIT) == 0 ||
-        (subgroups.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) == 0)
-        throw InputError(
-            fmt::format("queues need subgroup ballots, which '{}' does not have", device.report().name));
-}
-
 }  // namespace
 
-Queues::Queues(gpu::Device& device, const gpu::SpecConstants& constants, uvec2 size, std::uint32_t bounces)
+Queues::Queues(gpu::Device& device, const gpu::SpecConstants& constants, uvec2 size, std::uint32_t bounces,
+               std::uint32_t rays_per_thread)
     : bounces_(bounces) {
     if (bounces > kMostQueueBounces)
         throw InputError(fmt::format("queues hold paths of at most {} bounces, {} were asked for",
                                      kMostQueueBounces, bounces));
-    requireBallots(device);
+    if (!hasBallots(device))
+        throw InputError(
+            fmt::format("queues need subgroup ballots, which '{}' does not have", device.report().name));
+    gpu::SpecConstants with_lanes = constants;
+    with_lanes[kConstantRaysPerThread] = rays_per_thread > 0 ? rays_per_thread : raysPerThread(device);
     const auto compile = [&](const char* name, gpu::Spirv spirv) {
-        return Kernel{gpu::Program::compute(device, name, spirv, constants), {}};
+        return Kernel{gpu::Program::compute(device, name, spirv, with_lanes), {}};
     };
     start_ = compile("queue_start", queue_start_comp);
     prepare_ = compile("queue_prepare", queue_prepare_comp);

@@ -14,7 +14,9 @@ namespace licht {
 class Queues {
 public:
     /// For slices of pictures of this size. Throws InputError for more than kMostQueueBounces bounces.
-    Queues(gpu::Device& device, const gpu::SpecConstants& constants, uvec2 size, std::uint32_t bounces);
+    /// rays_per_thread: 0 as raysPerThread() says.
+    Queues(gpu::Device& device, const gpu::SpecConstants& constants, uvec2 size, std::uint32_t bounces,
+           std::uint32_t rays_per_thread);
 
     /// `resources`: of the scene, the history and the frame. `counters`: per slot.
     void bind(gpu::Device& device, const std::vector<gpu::BoundResource>& resources,

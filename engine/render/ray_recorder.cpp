@@ -61,8 +61,11 @@ std::vector<RayList> recordRays(gpu::Device& device, const GpuScene& scene, cons
                                 const Camera& camera, uvec2 size) {
     const std::uint64_t tiles = std::uint64_t{(size.x + kTile - 1) / kTile} * ((size.y + kTile - 1) / kTile);
     const std::uint64_t list_bytes = tiles * kTile * kTile * sizeof(RayRecord);
-    // The longest list, shadow, is two of these.
-    const std::uint64_t limit = device.limits().maxStorageBufferRange / 2;
+    // The longest list, shadow, is two of these, and is read as texels.
+    const std::uint64_t limit =
+        std::min(std::uint64_t{device.limits().maxStorageBufferRange},
+                 std::uint64_t{device.limits().maxTexelBufferElements} * sizeof(vec4)) /
+        2;
     if (list_bytes > limit)
         throw InputError(
             fmt::format("{}x{} pixels are too many rays for this device's buffers: at most {} pixels", size.x,

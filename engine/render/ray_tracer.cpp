@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "licht/spirv/trace_rays_comp.h"
+#include "licht/spirv/trace_rays_refilled_comp.h"
 
 namespace licht {
 namespace {
@@ -17,8 +18,9 @@ constexpr uint kFirstSlice = 1U << 14U;
 // 65,535 workgroups of 64 are what every device runs at once.
 constexpr uint kLargestSlice = 1U << 21U;
 
-gpu::SpecConstants constantsOf(const GpuBvh& bvh, bool any_hit) {
-    gpu::SpecConstants constants{{kConstantAnyHit, any_hit ? 1U : 0U}};
+gpu::SpecConstants constantsOf(const GpuBvh& bvh, bool any_hit, uint rays_per_thread) {
+    gpu::SpecConstants constants{{kConstantAnyHit, any_hit ? 1U : 0U},
+                                 {kConstantRaysPerThread, rays_per_thread}};
     bvh.addTo(constants);
     return constants;
 }
@@ -30,32 +32,52 @@ std::vector<gpu::BoundResource> with(const GpuBvh& bvh, std::vector<gpu::BoundRe
 
 }  // namespace
 
-RayTracer::RayTracer(gpu::Device& device, const GpuBvh& bvh, std::span<const RayRecord> rays, bool any_hit)
+RayTracer::RayTracer(gpu::Device& device, const GpuBvh& bvh, std::span<const RayRecord> rays, bool any_hit,
+                     uint rays_per_thread)
     : device_(&device),
       ray_count_(static_cast<uint>(rays.size())),
+      rays_per_thread_(rays_per_thread),
       slice_(kFirstSlice),
-      program_(gpu::Program::compute(device, any_hit ? "trace_rays any" : "trace_rays nearest",
-                                     trace_rays_comp, constantsOf(bvh, any_hit))),
-      rays_(gpu::uploadBuffer(device, "rays", rays, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT)),
+      program_(gpu::Program::compute(
+          device, any_hit ? "trace_rays any" : "trace_rays nearest",
+          rays_per_thread > 1 ? gpu::Spirv(trace_rays_refilled_comp) : gpu::Spirv(trace_rays_comp),
+          constantsOf(bvh, any_hit, rays_per_thread))),
+      rays_(gpu::uploadBuffer(device, "rays", rays, VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT)),
+      rays_view_(device, rays_, VK_FORMAT_R32G32B32A32_SFLOAT),
       hits_(device, "ray hits", rays.size() * sizeof(RayHitRecord),
-            VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT, gpu::Memory::device),
+            VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
+                VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+            gpu::Memory::device),
       range_(device, "ray range", sizeof(RayRange), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
              gpu::Memory::host_write),
-      bindings_(device, program_, with(bvh, {{"Range", &range_}, {"Rays", &rays_}, {"RayHits", &hits_}})),
+      bindings_(device, program_,
+                with(bvh, {{"Range", &range_}, {"ray_texels", &rays_view_}, {"RayHits", &hits_}})),
       commands_(device) {}
 
 double RayTracer::traceRange(const RayRange& range) {
     std::memcpy(range_.mapped(), &range, sizeof(range));
     const Clock::time_point start = Clock::now();
     commands_.begin();
+    const uint threads = (range.count + rays_per_thread_ - 1) / rays_per_thread_;
     commands_.pass("trace_rays", {{&rays_, gpu::Access::compute_read}, {&hits_, gpu::Access::compute_write}},
-                   [&](const gpu::Pass& pass) { pass.dispatch(program_, bindings_, range.count); });
+                   [&](const gpu::Pass& pass) { pass.dispatch(program_, bindings_, threads); });
     commands_.submit();
     commands_.wait();
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+// Rays whose walk is cut write nothing.
+void RayTracer::markAllCut() {
+    commands_.begin();
+    commands_.pass("mark", {{&hits_, gpu::Access::transfer_write}}, [&](const gpu::Pass& pass) {
+        vkCmdFillBuffer(pass.commandBuffer(), hits_.handle(), 0, VK_WHOLE_SIZE, kRayCut);
+    });
+    commands_.submit();
+    commands_.wait();
+}
+
 double RayTracer::trace() {
+    markAllCut();
     double seconds = 0.0;
     uint slice = 0;
     for (RayRange range{0, 0}; range.first < ray_count_; range.first += slice) {

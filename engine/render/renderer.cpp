@@ -13,6 +13,7 @@
 #include "licht/render/film.h"
 #include "licht/render/gpu_scene.h"
 #include "licht/render/history.h"
+#include "licht/render/lanes.h"
 #include "licht/render/order_sums.h"
 #include "licht/render/passes.h"
 #include "licht/render/programs.h"
@@ -52,10 +53,10 @@ Effects effectsOf(const Scene& scene, const RenderSettings& settings) {
 std::uint32_t pathsPerThread(const gpu::Device& device, const RenderSettings& settings) {
     constexpr std::uint32_t kMostPaths = 16;
     constexpr std::uint32_t kRounds = 32'768;
-    constexpr std::uint32_t kRoundsPerVertex = 100;
+    constexpr std::uint32_t kRoundsPerVertex = 125;
     constexpr std::uint32_t kBouncesInRoulette = 16;
     if (settings.paths_per_thread > 0) return settings.paths_per_thread;
-    if (device.report().type != "cpu") return 1;
+    if (!runsInLockstep(device)) return 1;
     const std::uint32_t roulette = std::min(settings.roulette_start, settings.bounces);
     const std::uint32_t vertices = std::min(settings.bounces, roulette + kBouncesInRoulette) + 1;
     return std::clamp(kRounds / kRoundsPerVertex / vertices, 1U, kMostPaths);
@@ -203,7 +204,7 @@ void Renderer::State::resize(uvec2 size) {
     if (settings.aovs.any()) layer_bindings = gpu::Bindings(device, programs->layers, resources);
     if (settings.queues) {
         queues.emplace(device, constantsOf(effects, gpu_scene, settings, paths_per_thread), size,
-                       settings.bounces);
+                       settings.bounces, settings.rays_per_thread);
         const std::array counters{static_cast<const gpu::Buffer*>(&slots[0].counters),
                                   static_cast<const gpu::Buffer*>(&slots[1].counters)};
         queues->bind(device, resources, counters);

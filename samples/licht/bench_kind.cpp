@@ -6,6 +6,7 @@
 #include <ctime>
 
 #include "licht/command/bench_compare.h"
+#include "licht/render/lanes.h"
 #include "licht/render/ray_tracer.h"
 
 namespace licht {
@@ -31,7 +32,8 @@ void countSteps(const BenchScene& scene, const RayList& list, BenchKind& result)
     for (std::size_t i = 0; i < list.rays.size(); i += stride) {
         const RayRecord& r = list.rays[i];
         TraversalSteps steps;
-        intersect(scene.bvh, scene.triangles, Ray{r.origin, r.direction, r.t_min, r.t_max}, &steps);
+        intersect(scene.bvh, scene.triangles, Ray{r.origin, r.direction, r.t_min, r.t_max}, &steps,
+                  list.any_hit);
         nodes += steps.nodes;
         triangles += steps.triangles;
         ++rays;
@@ -83,7 +85,9 @@ BenchKind measureKind(const BenchScene& scene, const RayList& list, std::uint32_
     if (list.rays.empty()) return result;
     countSteps(scene, list, result);
 
-    RayTracer tracer(scene.device, scene.on_device, list.rays, list.any_hit);
+    // As the renderer does where it has lists; primary rays are the rasteriser's, and neighbours walk alike.
+    const uint rays_per_thread = list.kind == "primary" ? 1 : raysPerThread(scene.device);
+    RayTracer tracer(scene.device, scene.on_device, list.rays, list.any_hit, rays_per_thread);
     tracer.trace();  // compiles, and finds how much to submit at once
     const std::vector<RayHitRecord> found = tracer.hits();
     result.cut_walks = static_cast<std::uint64_t>(std::count_if(

@@ -120,7 +120,7 @@ void addSampling(CLI::App& app, RenderSettings& settings) {
         "Pick one of many lights by tree (near and facing first), power or uniform (default: tree)",
         settings.lights, parseLightChoice);
     add("--environment-sampling", "HOW",
-        "Draw a direction to the environment by alias, inversion or rejection (default: alias)",
+        "Draw a direction to the environment by inversion, alias or rejection (default: inversion)",
         settings.environment_sampling, parseEnvironmentSampling);
     add("--sampler", "HOW",
         "Numbers from sobol (Owen-scrambled), blue (errors spread as blue noise, for few samples) or random "
@@ -144,10 +144,10 @@ void addBiased(CLI::App& app, RenderSettings& settings) {
         ->group(group);
 }
 
-void addExpert(CLI::App& app, RenderSettings& settings) {
+void addExpert(CLI::App& app, RenderSettings& settings, QueueUse& queues) {
     const std::string group = "Expert options";
     addValue(app, "--roulette", "BOUNCE",
-             "First bounce that may end a path by chance, keeping the mean (default: 8)",
+             "First bounce that may end a path by chance, keeping the mean (default: 3)",
              [&settings](std::string_view option, std::string_view text) {
                  settings.roulette_start = parseCount32(option, text, 0, kMaxCount32);
              })
@@ -168,9 +168,12 @@ void addExpert(CLI::App& app, RenderSettings& settings) {
                  settings.bvh_quality = parseQuality(option, text);
              })
         ->group(group);
-    app.add_flag(
-           "--queues", settings.queues,
-           "Follow paths by small kernels with queues between them instead of one kernel: the same samples")
+    // A flag, so that a value stands behind a "=" and a scene may follow it.
+    const std::string queues_meaning =
+        "Follow paths by small kernels with queues between them instead of one kernel, the same samples: "
+        "--queues=on, off or auto, where it pays (default: auto)";
+    app.add_flag("--queues{on}", queues_meaning)
+        ->each([&queues](const std::string& text) { queues = parseQueueUse("--queues", text); })
         ->group(group);
     app.add_flag("--flatten-instances", settings.flatten_instances,
                  "Store every instance of a mesh as triangles of its own")
@@ -215,7 +218,7 @@ void addRender(CLI::App& app, RenderOptions& options) {
     app.add_flag("--quiet", options.quiet, "Say nothing but errors");
     addSampling(app, options.settings);
     addBiased(app, options.settings);
-    addExpert(app, options.settings);
+    addExpert(app, options.settings, options.queues);
 }
 
 void addView(CLI::App& app, ViewOptions& options) {

@@ -22,6 +22,9 @@ constexpr double kMaxExposure = 64.0;
 constexpr std::array<std::pair<std::string_view, Tonemap>, 4> kTonemaps{
     {{"none", Tonemap::none}, {"neutral", Tonemap::neutral}, {"agx", Tonemap::agx}, {"aces", Tonemap::aces}}};
 
+constexpr std::array<std::pair<std::string_view, QueueUse>, 3> kQueueUses{
+    {{"auto", QueueUse::automatic}, {"on", QueueUse::on}, {"off", QueueUse::off}}};
+
 constexpr std::array<std::pair<std::string_view, BvhQuality>, 3> kQualities{
     {{"fast", BvhQuality::fast}, {"balanced", BvhQuality::balanced}, {"best", BvhQuality::best}}};
 
@@ -161,6 +164,10 @@ std::string_view tonemapName(Tonemap curve) {
 
 BvhQuality parseQuality(std::string_view option, std::string_view text) {
     return choose(option, text, kQualities);
+}
+
+QueueUse parseQueueUse(std::string_view option, std::string_view text) {
+    return choose(option, text, kQueueUses);
 }
 
 std::string_view qualityName(BvhQuality quality) {

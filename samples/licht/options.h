@@ -36,8 +36,12 @@ struct Layers {
     bool orders = false;  ///< one per order T^i Le
 };
 
+/// Whether paths go through queues; automatic: where that is measured to pay.
+enum class QueueUse { automatic, on, off };
+
 struct RenderOptions {
     SceneRequest source;
+    QueueUse queues = QueueUse::automatic;
     std::vector<std::filesystem::path> outputs;  ///< .png and .exr; empty: "<scene name>.png"
     std::optional<uvec2> size;
     std::optional<std::uint32_t> samples;
@@ -112,6 +116,7 @@ vec3 parseColour(std::string_view option, std::string_view text);
 BvhQuality parseQuality(std::string_view option, std::string_view text);
 /// As parseQuality reads it.
 std::string_view qualityName(BvhQuality quality);
+QueueUse parseQueueUse(std::string_view option, std::string_view text);
 Tonemap parseTonemap(std::string_view option, std::string_view text);
 /// As parseTonemap reads it.
 std::string_view tonemapName(Tonemap curve);

@@ -11,6 +11,7 @@
 #include "licht/command/commands.h"
 #include "licht/command/exr_layers.h"
 #include "licht/command/process_clock.h"
+#include "licht/command/queue_choice.h"
 #include "licht/command/render_loop.h"
 #include "licht/command/report.h"
 #include "licht/command/scene_source.h"
@@ -18,6 +19,7 @@
 #include "licht/command/text.h"
 #include "licht/core/file.h"
 #include "licht/image/files.h"
+#include "licht/render/lanes.h"
 #include "licht/shared/queue_records.h"
 
 namespace licht {
@@ -86,7 +88,7 @@ void runPilots(const RenderOptions& options, gpu::Device& device, const Scene& s
                RenderReport& report) {
     if (options.auto_bounces) {
         const std::uint32_t most =
-            options.settings.queues ? std::min(kMostQueueBounces, kMostAutoBounces) : kMostAutoBounces;
+            options.queues == QueueUse::on ? std::min(kMostQueueBounces, kMostAutoBounces) : kMostAutoBounces;
         report.depth = chooseDepth(device, scene, camera, report.settings,
                                    options.error.value_or(kDefaultTailShare), most);
         report.settings.bounces = report.depth->bounces;
@@ -145,6 +147,8 @@ int render(const RenderOptions& options) {
     device_options.device = options.device;
     gpu::Device device(device_options);
     runPilots(options, device, source.scene, shot.camera, report);
+    report.settings.queues =
+        chooseQueues(options.queues, report.settings, stopRules(options), raysPerThread(device) > 1);
     Renderer renderer(device, source.scene, shot.camera, report.settings);
     if (!options.quiet) printWarnings(source.scene);
 

@@ -66,6 +66,7 @@ std::string reportJson(const RenderReport& report) {
     json["sampling"] = samplingJson(report.settings);
     json["adaptive"] = adaptiveJson(report);
     json["declared_bias"] = biasJson(report);
+    json["queues"] = report.settings.queues;
     json["stopped_by"] = stopName(report.stopped_by);
     json["interrupted"] = report.stopped_by == Stop::interrupt;
     json["seconds"] = {{"load", report.load_seconds},

@@ -20,6 +20,11 @@ layout(binding = 88) uniform usamplerBuffer queue_shadow_texels;
 
 void onRay(vec3 origin, vec3 direction, float t_max, bool any_hit) {}
 
+// What traceList() returns.
+void countLostRays(uint lost) {
+    if (lost > 0u) atomicAdd(counters.cut_walks, lost);
+}
+
 uint queueCount(uint bounce, uint which) { return queue_counts[kQueueCounts * bounce + which]; }
 
 // A place in a queue for every invocation that wants one; called by all together, so that one atomic serves a subgroup. The order of places is left to

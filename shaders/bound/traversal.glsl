@@ -13,6 +13,9 @@
 layout(constant_id = 64) const bool kBvhInStorage = false;
 // Bvh::max_stack: no traversal of that tree holds more entries.
 layout(constant_id = 65) const uint kBvhStackSize = 64u;
+// kConstantRaysPerThread; more than one: lanes are refilled (ray_list.glsl), as suits devices that run them in lockstep.
+layout(constant_id = 81) const uint kRaysPerThread = 1u;
+const bool kRefilled = kRaysPerThread > 1u;
 
 // Positions from here on are instances.
 layout(constant_id = 70) const uint kFirstInstancePosition = 0xffffffffu;
@@ -42,6 +45,8 @@ struct TraceHit {
     float b1;       // barycentric weights of the second and third vertex
     float b2;
 };
+
+const TraceHit kNoTraceHit = TraceHit(kNoIndex, kNoIndex, 0.0, 0.0, 0.0);
 
 uvec4 bvhNodeTexel(uint index) { return kBvhInStorage ? bvh_node_texels[index] : texelFetch(bvh_nodes, int(index)); }
 
@@ -187,126 +192,174 @@ BoxRay widenedForInstances(BoxRay boxes, vec3 lower, vec3 upper) {
     return boxes;
 }
 
+// A ray on its way through the tree, between two rounds. What waits is in bvh_stack.
+struct Walk {
+    vec3 origin;         // world
+    vec3 direction;
+    float t_first;       // t_min as it was asked for
+    float t_min;         // scaled as `ray` is
+    RaySetup ray;        // in the space of bvh_instance, as all below
+    BoxRay boxes;
+    TraceHit best;
+    float best_triangle;
+    uint current;        // the node to meet next
+    uint waiting;        // the group on top of the stack
+    // Triangles to test: two groups, so that a lane may go on to the next node while one is left; both are tested one triangle a round.
+    uint triangles;
+    uint more_triangles;
+    uint stacked;
+    uint base;           // entries below belong to the world, which the ray has left for an object
+};
+
+uint bvh_stack[kBvhStackSize + 1u];  // one more, because kRefilled writes behind the last entry
+
+bool walks(Walk w) { return w.current != kBvhNone || w.triangles != 0u || (kInstances && bvh_instance != kNoIndex); }
+
+// scene_lower, scene_upper: treeBounds(0).
+void startWalk(out Walk w, vec3 origin, vec3 direction, float t_min, float t_max, vec3 scene_lower, vec3 scene_upper) {
+    w.origin = origin;
+    w.direction = direction;
+    bool fine = setUpRay(origin, direction, scene_lower, scene_upper, w.ray);
+    fine = fine && t_min < t_max && max(floatBitsToUint(t_min) << 1u, floatBitsToUint(t_max) << 1u) <= 0xff000000u;  // no NaN
+    w.t_first = t_min;
+    w.t_min = t_min > 0.0F ? t_min * w.ray.distance_scale : 0.0F;
+    w.boxes = boxRay(origin, w.ray);
+    if (kInstances) w.boxes = widenedForInstances(w.boxes, scene_lower, scene_upper);
+    bvh_instance = kNoIndex;
+    w.best = TraceHit(kNoIndex, kNoIndex, t_max * w.ray.distance_scale, 0.0F, 0.0F);
+    w.best_triangle = -1.0F;  // nothing comes before a range's end
+    w.current = fine ? 0u : kBvhNone;
+    w.waiting = 0u;
+    w.triangles = 0u;
+    w.more_triangles = 0u;
+    w.stacked = 0u;
+    w.base = 0u;
+}
+
+// What was hit, with its distance along the ray as it was asked for. The walk has ended.
+TraceHit hitOfWalk(Walk w) {
+    w.best.t *= w.ray.direction_scale;
+    return w.best;
+}
+
+// Returns whether the group that waited before waits below a new one.
+bool stepNode(inout Walk w) {
+    NodeHits hits = meetNode(w.boxes, w.current, w.t_min, w.best.t);
+    uint found = hits.triangles != 0u ? makeGroup(hits.triangle_base, hits.triangles, false) : 0u;
+    w.more_triangles = w.triangles != 0u ? found : 0u;
+    w.triangles = w.triangles != 0u ? w.triangles : found;
+
+    // On to the nearest child while its siblings wait, or to the next that waits.
+    uint siblings = hits.nodes & ~(1u << hits.nearest);
+    bool below = siblings != 0u && w.waiting != 0u;
+    if (siblings != 0u) w.waiting = makeGroup(hits.child_base, siblings, hits.reversed);
+    if (hits.nodes != 0u) {
+        w.current = hits.child_base + hits.nearest;
+    } else {
+        w.current = w.waiting != 0u ? firstOfGroup(w.waiting) : kBvhNone;
+        w.waiting = w.waiting != 0u ? withoutFirst(w.waiting) : 0u;
+        if (w.waiting != 0u && (w.waiting & kGroupBits) == 0u) {
+            w.waiting = 0u;
+            if (w.stacked > w.base) w.waiting = bvh_stack[--w.stacked];
+        }
+    }
+    return below;
+}
+
+// Returns the position of the instance to enter in this round, or kBvhNone.
+uint stepTriangle(inout Walk w, bool any_hit) {
+    uint position = firstOfGroup(w.triangles);
+    w.triangles = withoutFirst(w.triangles);
+    bool left = (w.triangles & kGroupBits) != 0u;
+    w.triangles = left ? w.triangles : w.more_triangles;
+    w.more_triangles = left ? w.more_triangles : 0u;
+
+    uint texel = position * kBvhTexelsPerTriangle;
+    vec4 v0 = bvhTriangleTexel(texel);
+    TriangleHit hit;
+    bool met = testTriangle(w.ray, v0.xyz, bvhTriangleTexel(texel + 1u).xyz, bvhTriangleTexel(texel + 2u).xyz, hit);
+    bool is_instance = kInstances && position >= kFirstInstancePosition;
+    if (met && !is_instance) offerHit(position, v0.w, hit, w.ray, w.t_min, w.best, w.best_triangle);
+    bool enough = any_hit && w.best.position != kNoIndex;
+    w.triangles = enough ? 0u : w.triangles;
+    w.more_triangles = enough ? 0u : w.more_triangles;
+    w.current = enough ? kBvhNone : w.current;
+    if (kInstances && enough) bvh_instance = kNoIndex;
+    return is_instance ? position : kBvhNone;
+}
+
+// Into an instance, or back from one. In the round and not outside of it (as a loop that lanes leave and enter again): 10 % faster on lavapipe, where
+// lanes would wait for each other. best.t stays the same place.
+void stepInstance(inout Walk w, uint instance_met) {
+    bool entering = instance_met != kBvhNone;
+    bool leaving = !entering && w.current == kBvhNone && w.triangles == 0u && bvh_instance != kNoIndex;
+    if (!entering && !leaving) return;
+    uint root = 0u;
+    vec3 o = w.origin, d = w.direction;
+    if (entering) {
+        bvh_stack[w.stacked++] = w.triangles;
+        bvh_stack[w.stacked++] = w.more_triangles;
+        bvh_stack[w.stacked++] = w.current;
+        bvh_stack[w.stacked++] = w.waiting;
+        w.base = w.stacked;
+        w.triangles = 0u;
+        w.more_triangles = 0u;
+        w.waiting = 0u;
+        uint texel = instance_met * kBvhTexelsPerTriangle;
+        vec4 x = bvhTriangleTexel(texel), y = bvhTriangleTexel(texel + 1u), z = bvhTriangleTexel(texel + 2u);
+        vec4 at = bvhTriangleTexel(kFirstInstanceTexel + instance_met);
+        o = w.origin - vec3(x.w, y.w, z.w);
+        o = vec3(dot(x.xyz, o), dot(y.xyz, o), dot(z.xyz, o));
+        d = vec3(dot(x.xyz, d), dot(y.xyz, d), dot(z.xyz, d));
+        root = uint(at.x);
+        w.current = root;
+        bvh_instance = uint(at.y);
+    } else {
+        bvh_instance = kNoIndex;
+        w.waiting = bvh_stack[--w.stacked];
+        w.current = bvh_stack[--w.stacked];
+        w.more_triangles = bvh_stack[--w.stacked];
+        w.triangles = bvh_stack[--w.stacked];
+        w.base = 0u;
+    }
+    w.best.t *= w.ray.direction_scale;
+    vec3 lower, upper;
+    treeBounds(root, lower, upper);
+    if (!setUpRay(o, d, lower, upper, w.ray)) w.current = kBvhNone;
+    w.boxes = boxRay(o, w.ray);
+    if (leaving) w.boxes = widenedForInstances(w.boxes, lower, upper);
+    w.best.t *= w.ray.distance_scale;
+    w.t_min = w.t_first > 0.0F ? w.t_first * w.ray.distance_scale : 0.0F;
+}
+
+// A round is one node and one triangle, because drivers that run lanes in lockstep pay for both anyway. Rounds of a walk that has ended do nothing.
+void walkOn(inout Walk w, bool any_hit) {
+    uint waited = w.waiting;
+    bool below = w.current != kBvhNone && w.more_triangles == 0u && stepNode(w);
+    // A CPU stores lane by lane behind branches that it foretells badly: where nearly all lanes walk, storing for all of them makes walks 2 to 6 %
+    // faster (lavapipe). Where many idle it costs as much.
+    if (kRefilled || below) bvh_stack[w.stacked] = waited;
+    w.stacked += below ? 1u : 0u;
+    uint instance_met = kBvhNone;
+    if (w.triangles != 0u) instance_met = stepTriangle(w, any_hit);
+    if (kInstances) stepInstance(w, instance_met);
+}
+
 // The nearest hit in [max(t_min, 0), t_max), or with any_hit the first one found. Equal distances go to the baked triangles, then to the lower
 // instance, then to the lower triangle index. A ray that is not finite or has no direction hits nothing.
 TraceHit traceRay(vec3 origin, vec3 direction, float t_min, float t_max, bool any_hit) {
     vec3 scene_lower, scene_upper;
     treeBounds(0u, scene_lower, scene_upper);
-    RaySetup ray;
-    bool walking = setUpRay(origin, direction, scene_lower, scene_upper, ray);
-    walking = walking && t_min < t_max && max(floatBitsToUint(t_min) << 1u, floatBitsToUint(t_max) << 1u) <= 0xff000000u;  // no NaN
-    float t_first = t_min;
-    t_min = t_min > 0.0F ? t_min * ray.distance_scale : 0.0F;
-    BoxRay boxes = boxRay(origin, ray);
-    if (kInstances) boxes = widenedForInstances(boxes, scene_lower, scene_upper);
-    bvh_instance = kNoIndex;
-    TraceHit best = TraceHit(kNoIndex, kNoIndex, t_max * ray.distance_scale, 0.0F, 0.0F);
-    float best_triangle = -1.0F;  // nothing comes before a range's end
-
-    uint stack[kBvhStackSize];
-    uint stacked = 0u;
-    uint base = 0u;                           // entries below belong to the world, which the ray has left for an object
-    uint waiting = 0u;                        // the group on top of the stack
-    uint current = walking ? 0u : kBvhNone;   // the node to meet next
-    // Triangles to test: two groups, so that a lane may go on to the next node while one is left; both are tested one triangle a round.
-    uint triangles = 0u, more_triangles = 0u;
-    uint instance_met = kBvhNone;             // position of an instance to enter in this round
-    // A round is one node and one triangle, because drivers that run lanes in lockstep pay for both anyway.
+    Walk w;
+    startWalk(w, origin, direction, t_min, t_max, scene_lower, scene_upper);
+    bool walking = walks(w);
     while (walking) {
-        if (current != kBvhNone && more_triangles == 0u) {
-            NodeHits hits = meetNode(boxes, current, t_min, best.t);
-            uint found = hits.triangles != 0u ? makeGroup(hits.triangle_base, hits.triangles, false) : 0u;
-            more_triangles = triangles != 0u ? found : 0u;
-            triangles = triangles != 0u ? triangles : found;
-
-            // On to the nearest child while its siblings wait, or to the next that waits.
-            uint siblings = hits.nodes & ~(1u << hits.nearest);
-            if (siblings != 0u) {
-                if (waiting != 0u) stack[stacked++] = waiting;
-                waiting = makeGroup(hits.child_base, siblings, hits.reversed);
-            }
-            if (hits.nodes != 0u) {
-                current = hits.child_base + hits.nearest;
-            } else {
-                current = waiting != 0u ? firstOfGroup(waiting) : kBvhNone;
-                waiting = waiting != 0u ? withoutFirst(waiting) : 0u;
-                if (waiting != 0u && (waiting & kGroupBits) == 0u) {
-                    waiting = 0u;
-                    if (stacked > base) waiting = stack[--stacked];
-                }
-            }
-        }
-        if (triangles != 0u) {
-            uint position = firstOfGroup(triangles);
-            triangles = withoutFirst(triangles);
-            bool left = (triangles & kGroupBits) != 0u;
-            triangles = left ? triangles : more_triangles;
-            more_triangles = left ? more_triangles : 0u;
-
-            uint texel = position * kBvhTexelsPerTriangle;
-            vec4 v0 = bvhTriangleTexel(texel);
-            TriangleHit hit;
-            bool met = testTriangle(ray, v0.xyz, bvhTriangleTexel(texel + 1u).xyz, bvhTriangleTexel(texel + 2u).xyz, hit);
-            bool is_instance = kInstances && position >= kFirstInstancePosition;
-            if (met && !is_instance) offerHit(position, v0.w, hit, ray, t_min, best, best_triangle);
-            if (is_instance) instance_met = position;
-            bool enough = any_hit && best.position != kNoIndex;
-            triangles = enough ? 0u : triangles;
-            more_triangles = enough ? 0u : more_triangles;
-            current = enough ? kBvhNone : current;
-            if (kInstances && enough) bvh_instance = kNoIndex;
-        }
-        // Into an instance, or back from one. In the round and not outside of it (as a loop that lanes leave and enter again): 10 % faster on
-        // lavapipe, where lanes would wait for each other. best.t stays the same place.
-        if (kInstances) {
-            bool entering = instance_met != kBvhNone;
-            bool leaving = !entering && current == kBvhNone && triangles == 0u && bvh_instance != kNoIndex;
-            if (entering || leaving) {
-                uint root = 0u;
-                vec3 o = origin, d = direction;
-                if (entering) {
-                    stack[stacked++] = triangles;
-                    stack[stacked++] = more_triangles;
-                    stack[stacked++] = current;
-                    stack[stacked++] = waiting;
-                    base = stacked;
-                    triangles = 0u;
-                    more_triangles = 0u;
-                    waiting = 0u;
-                    uint texel = instance_met * kBvhTexelsPerTriangle;
-                    vec4 x = bvhTriangleTexel(texel), y = bvhTriangleTexel(texel + 1u), z = bvhTriangleTexel(texel + 2u);
-                    vec4 at = bvhTriangleTexel(kFirstInstanceTexel + instance_met);
-                    o = origin - vec3(x.w, y.w, z.w);
-                    o = vec3(dot(x.xyz, o), dot(y.xyz, o), dot(z.xyz, o));
-                    d = vec3(dot(x.xyz, d), dot(y.xyz, d), dot(z.xyz, d));
-                    root = uint(at.x);
-                    current = root;
-                    bvh_instance = uint(at.y);
-                } else {
-                    bvh_instance = kNoIndex;
-                    waiting = stack[--stacked];
-                    current = stack[--stacked];
-                    more_triangles = stack[--stacked];
-                    triangles = stack[--stacked];
-                    base = 0u;
-                }
-                best.t *= ray.direction_scale;
-                vec3 lower, upper;
-                treeBounds(root, lower, upper);
-                if (!setUpRay(o, d, lower, upper, ray)) current = kBvhNone;
-                boxes = boxRay(o, ray);
-                if (leaving) boxes = widenedForInstances(boxes, lower, upper);
-                best.t *= ray.distance_scale;
-                t_min = t_first > 0.0F ? t_first * ray.distance_scale : 0.0F;
-                instance_met = kBvhNone;
-            }
-        }
+        walkOn(w, any_hit);
         // A variable of its own: what a loop's condition says is taken for granted behind the loop, even where the loop was cut.
-        walking = current != kBvhNone || triangles != 0u || (kInstances && bvh_instance != kNoIndex);
+        walking = walks(w);
     }
-    bvh_walk_cut = bvh_walk_cut || current != kBvhNone || triangles != 0u || (kInstances && bvh_instance != kNoIndex);
-    best.t *= ray.direction_scale;
-    return best;
+    bvh_walk_cut = bvh_walk_cut || walks(w);
+    return hitOfWalk(w);
 }
 
 #endif

@@ -33,26 +33,38 @@ Hit hitOf(TraceHit t) {
     return Hit(instance, uint(bvhTriangleTexel(texel + 2u).w), t.b1, t.b2);
 }
 
-// Nearest surface, or with any_hit some surface, that is there for this ray. Coverage is asked once per surface and not inside the traversal,
-// because drivers without branches would filter textures in every step of it.
+// What passesThrough() was asked about last.
+Hit g_hit = kNoHit;
+
+// Is what was hit not there for this ray? Then only what comes behind it counts from here on. Coverage is asked once per surface and not inside the
+// traversal, because drivers without branches would filter textures in every step of it.
+bool passesThrough(TraceHit found) {
+    g_hit = hitOf(found);
+    bool passes = false;
+    if (kAlpha && g_hit.instance != kNoIndex && (instanceAt(g_hit.instance).flags & kInstanceAlpha) != 0u) {
+        uint triangle = instanceAt(g_hit.instance).first_triangle + g_hit.primitive;
+        passes = !covers(g_hit.instance, g_hit.primitive, g_hit.b1, g_hit.b2, coverageNumber(g_address, g_rays_before, g_hit.instance, triangle));
+        if (passes) {
+            g_after_t = found.t;
+            g_after_instance = found.instance;
+            g_after_triangle = triangle;
+        }
+    }
+    return passes;
+}
+
+// Nearest surface, or with any_hit some surface, that is there for this ray.
 Hit trace(vec3 origin, vec3 direction, float t_max, bool any_hit) {
     onRay(origin, direction, t_max, any_hit);
     g_after_t = -1.0;
     float t_min = 0.0;
-    Hit hit;
     while (true) {
         TraceHit found = traceRay(origin, direction, t_min, t_max, any_hit && !kAlpha);
-        hit = hitOf(found);
-        if (!kAlpha || hit.instance == kNoIndex || (instanceAt(hit.instance).flags & kInstanceAlpha) == 0u) break;
-        uint triangle = instanceAt(hit.instance).first_triangle + hit.primitive;
-        if (covers(hit.instance, hit.primitive, hit.b1, hit.b2, coverageNumber(g_address, g_rays_before, hit.instance, triangle))) break;
+        if (!passesThrough(found)) break;
         t_min = found.t;
-        g_after_t = found.t;
-        g_after_instance = found.instance;
-        g_after_triangle = triangle;
     }
     ++g_rays_before;
-    return hit;
+    return g_hit;
 }
 
 // The point moved off its plane towards `direction` by the bound of its error, so that a ray from there cannot meet the plane again.

@@ -2,9 +2,11 @@
 #extension GL_GOOGLE_include_directive : require
 // How many workgroups the next kernels of a bounce need.
 #include "shared/queue_records.h"
+#include "shared/ray_records.h"
 #include "shared/records.h"
 
 layout(local_size_x = 1) in;
+layout(constant_id = 81) const uint kRaysPerThread = 1u;  // kConstantRaysPerThread
 layout(push_constant) uniform Push { QueuePush push; };
 layout(std430, binding = 80) readonly buffer QueueCounts { uint queue_counts[]; };
 layout(std430, binding = 89) writeonly buffer QueueGroups { uvec4 queue_groups[]; };  // of VkDispatchIndirectCommand, one of kCount... each
@@ -12,7 +14,10 @@ layout(std430, binding = 16) buffer Counters { CounterRecord counters; };
 
 void main() {
     uint first = kQueueCounts * push.bounce;
-    for (uint i = 0u; i <= kCountShadows; ++i) queue_groups[i] = uvec4((queue_counts[first + i] + kQueueGroup - 1u) / kQueueGroup, 1u, 1u, 0u);
+    for (uint i = 0u; i <= kCountShadows; ++i) {
+        uint share = kQueueGroup * (i == kCountHits ? 1u : kRaysPerThread);
+        queue_groups[i] = uvec4((queue_counts[first + i] + share - 1u) / share, 1u, 1u, 0u);
+    }
     // Zero until the paths of this bounce are extended.
     counters.bounce_rays += queue_counts[first + kCountRays];
     counters.shadow_rays += queue_counts[first + kCountShadows];

@@ -7,12 +7,28 @@
 
 layout(local_size_x = 64) in;
 
-void main() {
-    if (gl_GlobalInvocationID.x >= queueCount(push.bounce, kCountShadows)) return;
-    int at = int(kShadowTexels * gl_GlobalInvocationID.x);
+uint g_path = 0u;
+vec3 g_light = vec3(0.0);
+
+void takeRay(uint i, out vec3 origin, out vec3 direction, out float t_min, out float t_max) {
+    int at = int(kShadowTexels * i);
     uvec4 o = texelFetch(queue_shadow_texels, at), d = texelFetch(queue_shadow_texels, at + 1), c = texelFetch(queue_shadow_texels, at + 2);
-    uint path = d.w;
-    addressPath(path, c.w);
-    if (!occluded(uintBitsToFloat(o.xyz), uintBitsToFloat(d.xyz), uintBitsToFloat(o.w))) addRadiance(path, foundLight(push.bounce + 1u, uintBitsToFloat(c.xyz)));
-    countCutWalk();
+    g_path = d.w;
+    g_light = uintBitsToFloat(c.xyz);
+    if (kAlpha) addressPath(g_path, c.w);
+    g_after_t = -1.0;
+    origin = uintBitsToFloat(o.xyz);
+    direction = uintBitsToFloat(d.xyz);
+    t_min = 0.0;
+    t_max = uintBitsToFloat(o.w);
 }
+
+void giveHit(bool gives, TraceHit found) {
+    if (!gives || found.position != kNoIndex) return;
+    if (kOrders > 0u || kClamp) addressPath(g_path, 0u);
+    addRadiance(g_path, foundLight(push.bounce + 1u, g_light));
+}
+
+#include "bound/ray_list.glsl"
+
+void main() { countLostRays(traceList(queueCount(push.bounce, kCountShadows), !kAlpha)); }

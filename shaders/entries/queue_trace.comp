@@ -7,25 +7,34 @@
 
 layout(local_size_x = 64) in;
 
-void main() {
-    bool hits = false;
-    uint path = 0u;
-    if (gl_GlobalInvocationID.x < queueCount(push.bounce, kCountRays)) {
-        int at = int(kRayTexels * gl_GlobalInvocationID.x);
-        uvec4 o = texelFetch(queue_ray_texels, at), d = texelFetch(queue_ray_texels, at + 1);
-        path = o.w;
-        addressPath(path, rayCountOf(path) - 1u);
-        Hit hit = traceNearest(uintBitsToFloat(o.xyz), uintBitsToFloat(d.xyz));
-        hits = hit.instance != kNoIndex;
-        if (hits) {
-            storeHit(path, hit);
-        } else if (kEnvironment) {
-            Path p = loadPath(path);
-            endInSky(p);
-            addRadiance(path, p.radiance);
-        }
-        countCutWalk();
+uint g_path = 0u;
+
+void takeRay(uint i, out vec3 origin, out vec3 direction, out float t_min, out float t_max) {
+    int at = int(kRayTexels * i);
+    uvec4 o = texelFetch(queue_ray_texels, at), d = texelFetch(queue_ray_texels, at + 1);
+    g_path = o.w;
+    if (kAlpha) addressPath(g_path, rayCountOf(g_path) - 1u);
+    g_after_t = -1.0;
+    origin = uintBitsToFloat(o.xyz);
+    direction = uintBitsToFloat(d.xyz);
+    t_min = 0.0;
+    t_max = uintBitsToFloat(0x7f800000u);
+}
+
+void giveHit(bool gives, TraceHit found) {
+    bool hits = gives && found.position != kNoIndex;
+    if (hits) {
+        storeHit(g_path, g_hit);
+    } else if (gives && kEnvironment) {
+        if (kOrders > 0u || kClamp) addressPath(g_path, 0u);
+        Path p = loadPath(g_path);
+        endInSky(p);
+        addRadiance(g_path, p.radiance);
     }
     uint place = appendTo(push.bounce + 1u, kCountHits, hits);
-    if (hits) queue_hits[place] = path;
+    if (hits) queue_hits[place] = g_path;
 }
+
+#include "bound/ray_list.glsl"
+
+void main() { countLostRays(traceList(queueCount(push.bounce, kCountRays), false)); }

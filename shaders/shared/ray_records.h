@@ -41,6 +41,7 @@ struct RayRange {
 };
 
 LICHT_CONSTANT uint kConstantAnyHit = 80u;
+LICHT_CONSTANT uint kConstantRaysPerThread = 81u;
 
 LICHT_SHARED_END
 #endif

@@ -8,6 +8,7 @@
 #include "licht/core/error.h"
 #include "licht/render/flat_geometry.h"
 #include "licht/render/gpu_bvh.h"
+#include "licht/render/lanes.h"
 #include "licht/render/ray_recorder.h"
 #include "licht/render/ray_tracer.h"
 #include "licht/scenes/builtin.h"
@@ -52,28 +53,33 @@ class RecordedRays : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Scenes, RecordedRays, testing::Values("terrain", "spheres"),
                          [](const auto& scene) { return scene.param; });
 
+void expectHits(const Recorded& recorded, const RayList& list, uint rays_per_thread) {
+    RayTracer tracer(gpu::testDevice(), recorded.on_device, list.rays, list.any_hit, rays_per_thread);
+    EXPECT_GT(tracer.trace(), 0.0);
+    EXPECT_GT(tracer.trace(), 0.0);
+    const std::vector<RayHitRecord> found = tracer.hits();
+    ASSERT_EQ(found.size(), list.rays.size());
+    std::size_t hits = 0;
+    for (std::size_t i = 0; i < list.rays.size(); ++i) {
+        const auto expected = intersectBruteForce(recorded.triangles, rayOf(list.rays[i]));
+        ASSERT_EQ(found[i].triangle != kNoIndex, expected.has_value()) << list.kind << i;
+        if (!expected) continue;
+        ++hits;
+        if (list.any_hit) continue;
+        EXPECT_EQ(found[i].triangle, expected->triangle) << list.kind << i;
+        EXPECT_EQ(found[i].t, expected->t) << list.kind << i;
+    }
+    EXPECT_GT(hits, 5U) << list.kind;
+    if (list.kind != "primary") {
+        EXPECT_LT(hits, list.rays.size()) << list.kind;
+    }
+}
+
 TEST_P(RecordedRays, HitWhatTestingEveryTriangleHits) {
     const Recorded recorded(GetParam());
     for (const RayList& list : recorded.lists) {
-        RayTracer tracer(gpu::testDevice(), recorded.on_device, list.rays, list.any_hit);
-        EXPECT_GT(tracer.trace(), 0.0);
-        EXPECT_GT(tracer.trace(), 0.0);
-        const std::vector<RayHitRecord> found = tracer.hits();
-        ASSERT_EQ(found.size(), list.rays.size());
-        std::size_t hits = 0;
-        for (std::size_t i = 0; i < list.rays.size(); ++i) {
-            const auto expected = intersectBruteForce(recorded.triangles, rayOf(list.rays[i]));
-            ASSERT_EQ(found[i].triangle != kNoIndex, expected.has_value()) << list.kind << i;
-            if (!expected) continue;
-            ++hits;
-            if (list.any_hit) continue;
-            EXPECT_EQ(found[i].triangle, expected->triangle) << list.kind << i;
-            EXPECT_EQ(found[i].t, expected->t) << list.kind << i;
-        }
-        EXPECT_GT(hits, 5U) << list.kind;
-        if (list.kind != "primary") {
-            EXPECT_LT(hits, list.rays.size()) << list.kind;
-        }
+        expectHits(recorded, list, 1);
+        if (hasBallots(gpu::testDevice())) expectHits(recorded, list, 4);
     }
 }
 

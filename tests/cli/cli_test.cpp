@@ -131,6 +131,7 @@ TEST(Render, ReportHasEveryKeyWithSaneValues) {
     EXPECT_EQ(report.at("spp"), 4);
     EXPECT_EQ(report.at("seed"), 7);
     EXPECT_EQ(report.at("bounces"), 3);
+    EXPECT_EQ(report.at("queues"), false);  // too short a run
     EXPECT_EQ(report.at("stopped_by"), "spp");
     EXPECT_EQ(report.at("interrupted"), false);
     EXPECT_EQ(report.at("outputs"), json({"a.exr"}));

@@ -169,6 +169,17 @@ TEST(Instances, EverythingCompiledInGivesTheSamePicture) {
               0.01);
 }
 
+TEST(Instances, QueuesGiveTheSameBits) {
+    for (const AlphaMode alpha : {AlphaMode::opaque, AlphaMode::blend}) {
+        const Scene scene = crowd(kCount, vec3(0.0F), alpha);
+        RenderSettings queues = small();
+        queues.queues = true;
+        const Film a = renderFilm(scene, scene.cameras[0], small(), 1);
+        const Film b = renderFilm(scene, scene.cameras[0], queues, 1);
+        EXPECT_EQ(differing(a.mean, b.mean, 0.0F), 0.0);
+    }
+}
+
 TEST(Instances, StorageBuffersGiveTheSameBits) {
     const Scene scene = crowd(kCount);
     RenderSettings storage = small();

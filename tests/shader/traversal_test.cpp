@@ -15,6 +15,7 @@
 namespace licht {
 namespace {
 
+using test::Lanes;
 using test::Mesh;
 using test::Random;
 using test::soup;
@@ -55,12 +56,25 @@ int expectSameHits(Tracer& tracer, const std::vector<Ray>& rays) {
     return hits;
 }
 
-class Traversal : public testing::TestWithParam<bool> {};
-INSTANTIATE_TEST_SUITE_P(Memory, Traversal, testing::Bool(),
-                         [](const auto& memory) { return memory.param ? "storage" : "texels"; });
+struct Form {
+    const char* name;
+    bool in_storage;
+    Lanes lanes;
+};
+
+class Traversal : public testing::TestWithParam<Form> {
+protected:
+    static Tracer tracerOf(std::vector<BvhTriangle> triangles) {
+        return Tracer(std::move(triangles), GetParam().in_storage, GetParam().lanes);
+    }
+};
+INSTANTIATE_TEST_SUITE_P(Forms, Traversal,
+                         testing::Values(Form{"texels", false, Lanes::own}, Form{"storage", true, Lanes::own},
+                                         Form{"refilled", false, Lanes::refilled}),
+                         [](const auto& form) { return form.param.name; });
 
 TEST_P(Traversal, FindsWhatTestingEveryTriangleFinds) {
-    Tracer tracer(soup(1'000, 0.2F, 1), GetParam());
+    Tracer tracer = tracerOf(soup(1'000, 0.2F, 1));
     EXPECT_GT(expectSameHits(tracer, randomRays(4'000, 1.5F, 2)), 1'000);
 }
 
@@ -83,7 +97,7 @@ TEST_P(Traversal, SliversSeenEdgeOnAndDuplicatesOnAGrazedFloor) {
         const vec3 origin = random.inCube(1.5F);
         rays.push_back({origin, glm::mix(triangle.v0, triangle.v1, random.uniform(0.0F, 1.0F)) - origin});
     }
-    Tracer tracer(triangles, GetParam());
+    Tracer tracer = tracerOf(triangles);
     EXPECT_GT(expectSameHits(tracer, rays), 2'000);
 }
 
@@ -99,7 +113,7 @@ TEST_P(Traversal, EveryOrderOfMagnitude) {
         const vec3 origin = random.inCube(4.0F * scale);
         rays.push_back({origin, (at - origin) * std::ldexp(1.0F, i % 80 - 40)});
     }
-    Tracer tracer(triangles, GetParam());
+    Tracer tracer = tracerOf(triangles);
     EXPECT_GT(expectSameHits(tracer, rays), 300);
 }
 
@@ -116,7 +130,7 @@ TEST_P(Traversal, NoRayEscapesAClosedSphere) {
             rays.push_back({origin, targets[i % 3] - origin});
         }
         int escaped = 0;
-        Tracer tracer(mesh.triangles, GetParam());
+        Tracer tracer = tracerOf(mesh.triangles);
         for (const auto& hit : tracer.trace(rays)) {
             escaped += hit ? 0 : 1;
         }
@@ -141,7 +155,7 @@ TEST_P(Traversal, RaysThatAreNotFiniteMiss) {
     rays.push_back({{0, 0, 1}, {0, 0, -1}, 0.0F, nan});
     rays.push_back({{0, 0, 1}, {0, 0, -1}, 2.0F, 1.0F});
     rays.push_back(good);
-    Tracer tracer({{{-9, -9, 0}, {9, -9, 0}, {0, 9, 0}}}, GetParam());
+    Tracer tracer = tracerOf({{{-9, -9, 0}, {9, -9, 0}, {0, 9, 0}}});
     EXPECT_EQ(expectSameHits(tracer, rays), 1);
     EXPECT_TRUE(tracer.trace(rays).back());
 }
@@ -152,7 +166,7 @@ TEST_P(Traversal, RefusedHitsAreWalkedThrough) {
     triangles.push_back({{-2, -2, -2}, {-1.9F, -2, -2}, {-2, -1.9F, -2}});
     triangles.push_back({{2, 2, 2}, {1.9F, 2, 2}, {2, 1.9F, 2}});
     constexpr std::uint32_t kRefused = 3;
-    Tracer tracer(triangles, GetParam());
+    Tracer tracer = tracerOf(triangles);
     std::vector<BvhTriangle> kept = triangles;
     for (std::uint32_t position = 0; position < tracer.bvh().triangle_ids.size(); position += kRefused) {
         const std::uint32_t id = tracer.bvh().triangle_ids[position];
@@ -177,7 +191,7 @@ TEST_P(Traversal, RefusedHitsAreWalkedThrough) {
 }
 
 TEST_P(Traversal, AnEmptySceneIsMissed) {
-    Tracer tracer({}, GetParam());
+    Tracer tracer = tracerOf({});
     EXPECT_EQ(expectSameHits(tracer, randomRays(100, 1.0F, 8)), 0);
 }
 
@@ -198,17 +212,21 @@ constexpr BvhTriangle kTriangle{{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}};
 
 TEST_P(Traversal, LongWalksReachEveryTriangle) {
     // At most one round a triangle and one for each of the nodes, of which there are fewer: below the 65,535
-    // rounds that every driver runs.
-    Tracer tracer(std::vector<BvhTriangle>(32'000, kTriangle), GetParam());
-    ASSERT_LT(tracer.triangles().size() + tracer.bvh().nodes.size(), 65'535U);
-    EXPECT_EQ(missesAmongEqualTriangles(tracer, 500), 0);
+    // rounds that every driver runs. Rays of a share have them together.
+    const std::uint32_t sharing = GetParam().lanes == Lanes::refilled ? Tracer::kRefills : 1;
+    Tracer tracer = tracerOf(std::vector<BvhTriangle>(32'000 / sharing, kTriangle));
+    ASSERT_LT(sharing * (tracer.triangles().size() + tracer.bvh().nodes.size()), 65'535U);
+    EXPECT_EQ(missesAmongEqualTriangles(tracer, 500 / sharing), 0);
     EXPECT_EQ(tracer.cutWalks(), 0);
 }
 
 TEST_P(Traversal, NoWalkIsCutSilently) {
-    Tracer tracer(std::vector<BvhTriangle>(320'000, kTriangle), GetParam());
+    Tracer tracer = tracerOf(std::vector<BvhTriangle>(320'000, kTriangle));
     const int misses = missesAmongEqualTriangles(tracer, 5'000);
     EXPECT_EQ(misses, tracer.cutWalks());
+    if (tracer.refills()) {
+        EXPECT_EQ(misses, tracer.lostRays());
+    }
 }
 
 // The least that a device may offer, and lavapipe.

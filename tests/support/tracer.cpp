@@ -5,29 +5,35 @@
 #include <span>
 
 #include "licht/gpu/commands.h"
+#include "licht/render/lanes.h"
+#include "licht/shared/ray_records.h"
 #include "licht/shared/records.h"
 #include "licht/spirv/tracer_comp.h"
+#include "licht/spirv/tracer_refilled_comp.h"
 #include "support/gpu_test.h"
 
 namespace licht::test {
 namespace {
 
-constexpr std::uint32_t kCut = 0xfffffffeU;  // what tracer.comp writes for a walk that was cut
+constexpr std::uint32_t kCut = 0xfffffffeU;  // what stays in all words of a walk that was cut
 
-gpu::SpecConstants constantsOf(const GpuBvh& bvh) {
-    gpu::SpecConstants constants;
+gpu::SpecConstants constantsOf(const GpuBvh& bvh, std::uint32_t rays_per_thread) {
+    gpu::SpecConstants constants{{kConstantRaysPerThread, rays_per_thread}};
     bvh.addTo(constants);
     return constants;
 }
 
 }  // namespace
 
-Tracer::Tracer(std::vector<BvhTriangle> triangles, bool in_storage)
-    : triangles_(std::move(triangles)),
+Tracer::Tracer(std::vector<BvhTriangle> triangles, bool in_storage, Lanes lanes)
+    : rays_per_thread_(lanes == Lanes::refilled && hasBallots(gpu::testDevice()) ? kRefills : 1),
+      triangles_(std::move(triangles)),
       bvh_(buildBvh(triangles_)),
       device_bvh_(gpu::testDevice(), bvh_.nodes, triangleTexels(bvh_, triangles_), bvh_.max_stack,
                   in_storage),
-      program_(gpu::Program::compute(gpu::testDevice(), "tracer", tracer_comp, constantsOf(device_bvh_))) {}
+      program_(gpu::Program::compute(gpu::testDevice(), "tracer",
+                                     refills() ? gpu::Spirv(tracer_refilled_comp) : gpu::Spirv(tracer_comp),
+                                     constantsOf(device_bvh_, rays_per_thread_))) {}
 
 std::vector<std::optional<BvhHit>> Tracer::trace(const std::vector<Ray>& rays, TraceQuery query) {
     std::vector<vec4> data;
@@ -39,22 +45,36 @@ std::vector<std::optional<BvhHit>> Tracer::trace(const std::vector<Ray>& rays, T
     gpu::Device& device = gpu::testDevice();
     const gpu::Buffer input =
         gpu::uploadBuffer(device, "rays", std::span<const vec4>(data), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
-    const gpu::Buffer output(device, "hits", rays.size() * sizeof(vec4),
-                             VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
-                             gpu::Memory::device);
-    std::vector<gpu::BoundResource> resources{{"rays", &input}, {"hits", &output}};
+    const std::vector<uvec4> all_cut(rays.size(), uvec4(kCut));
+    const gpu::Buffer output =
+        gpu::uploadBuffer(device, "hits", std::span<const uvec4>(all_cut),
+                          VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
+    const gpu::Buffer lost(device, "lost", sizeof(std::uint32_t), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+                           gpu::Memory::host_read);
+    std::memset(lost.mapped(), 0, sizeof(std::uint32_t));
+    std::vector<gpu::BoundResource> resources{{"rays", &input}, {"hits", &output}, {"lost", &lost}};
     device_bvh_.addTo(resources);
     const gpu::Bindings bindings(device, program_, resources);
     query.ray_count = static_cast<std::uint32_t>(rays.size());
     gpu::Commands commands(device);
     commands.begin();
-    commands.pass("trace", {{&input, gpu::Access::compute_read}, {&output, gpu::Access::compute_write}},
-                  [&](const gpu::Pass& pass) { pass.dispatch(program_, bindings, query, query.ray_count); });
+    const std::uint32_t threads = (query.ray_count + rays_per_thread_ - 1) / rays_per_thread_;
+    commands.pass("trace",
+                  {{&input, gpu::Access::compute_read},
+                   {&output, gpu::Access::compute_write},
+                   {&lost, gpu::Access::compute_read_write}},
+                  [&](const gpu::Pass& pass) { pass.dispatch(program_, bindings, query, threads); });
+    const gpu::Buffer* told = &lost;
+    commands.makeVisibleToHost(std::span(&told, 1));
     commands.submit();
     commands.wait();
     for (const auto& [name, time] : commands.times()) {
         device_seconds_ += time.seconds;
     }
+
+    std::uint32_t lost_rays = 0;
+    std::memcpy(&lost_rays, lost.mapped(), sizeof(lost_rays));
+    lost_rays_ += static_cast<int>(lost_rays);
 
     const std::vector<std::byte> bytes = gpu::readBuffer(device, output);
     std::vector<vec4> raw(rays.size());

@@ -18,10 +18,14 @@ struct TraceQuery {
     std::uint32_t stride = 0;   ///< not 0: ray i accepts position i * stride alone
 };
 
+/// How rays share the device's lanes.
+enum class Lanes { own, refilled };
+
 /// Triangles and their BVH on the test device.
 class Tracer {
 public:
-    explicit Tracer(std::vector<BvhTriangle> triangles, bool in_storage = false);
+    /// Lanes::refilled is Lanes::own on devices that have no ballots.
+    explicit Tracer(std::vector<BvhTriangle> triangles, bool in_storage = false, Lanes lanes = Lanes::own);
 
     [[nodiscard]] const std::vector<BvhTriangle>& triangles() const { return triangles_; }
     [[nodiscard]] const Bvh& bvh() const { return bvh_; }
@@ -31,11 +35,17 @@ public:
 
     /// Walks so far that the device did not finish; trace() gives no hit for them.
     [[nodiscard]] int cutWalks() const { return cut_walks_; }
+    /// The same, as the program told it; counted where lanes are refilled.
+    [[nodiscard]] int lostRays() const { return lost_rays_; }
+    [[nodiscard]] bool refills() const { return rays_per_thread_ > 1; }
+    static constexpr std::uint32_t kRefills = 16;  ///< rays a thread where lanes are refilled
     /// What the device took for all rays so far.
     [[nodiscard]] double deviceSeconds() const { return device_seconds_; }
 
 private:
     int cut_walks_ = 0;
+    int lost_rays_ = 0;
+    std::uint32_t rays_per_thread_;
     double device_seconds_ = 0.0;
     std::vector<BvhTriangle> triangles_;
     Bvh bvh_;

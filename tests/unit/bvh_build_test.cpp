@@ -66,13 +66,24 @@ TEST(BvhBuild, LargeSoupIsValidAndTraversalsStayInsideTheStack) {
     EXPECT_EQ(bvh.max_stack, worstStack(bvh, 0));
     Random random(2);
     std::uint32_t most = 0;
+    std::uint64_t nearest_nodes = 0;
+    std::uint64_t any_nodes = 0;
     for (int i = 0; i < 20'000; ++i) {
         TraversalSteps steps;
-        (void)intersect(bvh, triangles, {random.inCube(1.2F), random.direction()}, &steps);
+        TraversalSteps any_steps;
+        const Ray ray{random.inCube(1.2F), random.direction()};
+        const auto nearest = intersect(bvh, triangles, ray, &steps);
+        const auto any = intersect(bvh, triangles, ray, &any_steps, true);
+        ASSERT_EQ(any.has_value(), nearest.has_value());
+        EXPECT_LE(any_steps.nodes, steps.nodes);
+        EXPECT_LE(any_steps.triangles, steps.triangles);
         most = std::max(most, steps.stack);
+        nearest_nodes += steps.nodes;
+        any_nodes += any_steps.nodes;
     }
     EXPECT_LE(most, bvh.max_stack);
     EXPECT_GT(most, 3U);  // the instrument counts
+    EXPECT_LT(any_nodes, nearest_nodes);
 }
 
 TEST(BvhBuild, SameInputSameTreeWhateverTheNumberOfThreads) {

@@ -1,0 +1,14 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_KHR_shader_subgroup_basic : require
+#extension GL_KHR_shader_subgroup_ballot : require
+// Traces a list of rays and writes what they hit: lanes whose ray has ended take the next one.
+#include "bound/listed_rays.glsl"
+
+layout(local_size_x = 64) in;
+
+bool passesThrough(TraceHit found) { return false; }
+
+#include "bound/ray_list.glsl"
+
+void main() { traceList(range.count, kAnyHit); }
