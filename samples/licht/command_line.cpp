@@ -63,6 +63,11 @@ void addSource(CLI::App& app, SceneRequest& source) {
                  source.background = parseColour(option, text);
              })
         ->excludes(environment);
+    addValue(app, "--sun-angle", "DEGREES",
+             "Angle that directional lights fill, 0 to 180; the sun's is 0.53 (default: 0, sharp shadows)",
+             [&source](std::string_view option, std::string_view text) {
+                 source.sun_angle = parseAngle(option, text);
+             });
 }
 
 void addLook(CLI::App& app, std::optional<uvec2>& size, std::optional<double>& exposure, Tonemap& tonemap,

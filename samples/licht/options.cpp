@@ -135,6 +135,13 @@ float parsePositiveFloat(std::string_view option, std::string_view text) {
     refuse(option, text, "a number greater than 0");
 }
 
+double parseAngle(std::string_view option, std::string_view text) {
+    constexpr double kWholeSky = 180.0;
+    const auto value = wholeNumber<double>(text);
+    if (value && *value >= 0.0 && *value <= kWholeSky) return *value;
+    refuse(option, text, fmt::format("degrees from 0 to {}", kWholeSky));
+}
+
 double parseExposure(std::string_view option, std::string_view text) {
     const auto value = wholeNumber<double>(text);
     if (value && std::abs(*value) <= kMaxExposure) return *value;

@@ -25,6 +25,7 @@ struct SceneRequest {
     std::optional<std::string> camera;       ///< name or index; none: the first, or one that frames the scene
     std::optional<std::string> environment;  ///< path of an .hdr or .exr
     std::optional<vec3> background;          ///< cd/m^2, a constant sky; excludes environment
+    std::optional<double> sun_angle;         ///< degrees that directional lights fill; none: the scene's own
     std::uint64_t triangles = 0;             ///< of a built-in scene that takes a count; 0: its own
 };
 
@@ -105,6 +106,8 @@ std::uint64_t parseCount(std::string_view option, std::string_view text, std::ui
 /// The same for the 32-bit settings.
 std::uint32_t parseCount32(std::string_view option, std::string_view text, std::uint32_t lowest,
                            std::uint32_t highest);
+/// Degrees, 0 to 180.
+double parseAngle(std::string_view option, std::string_view text);
 /// Finite and greater than zero.
 double parsePositive(std::string_view option, std::string_view text);
 /// The same, as a float.

@@ -113,6 +113,9 @@ NamedScene loadScene(const SceneRequest& request) {
         scene.notes.push_back(
             {SceneNote::Kind::warning, "nothing in the scene gives light: lit by a neutral sky of 1 cd/m^2"});
     }
+    if (request.sun_angle)
+        for (PunctualLight& light : scene.lights)
+            light.angular_diameter = glm::radians(static_cast<float>(*request.sun_angle));
     return source;
 }
 

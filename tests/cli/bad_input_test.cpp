@@ -83,6 +83,8 @@ const BadInput kBadInputs[] = {
     {"UnknownTonemap", {"render", "empty", "--tonemap", "sepia"}, "agx"},
     {"UnknownLayer", {"render", "empty", "-o", "a.exr", "--aov", "albedo,shininess"}, "shininess"},
     {"LayersWithoutExr", {"render", "empty", "-o", "a.png", "--aov", "albedo"}, "--aov"},
+    {"SunWiderThanTheSky", {"render", "empty", "--sun-angle", "181"}, "--sun-angle"},
+    {"NoSunAngle", {"render", "empty", "--sun-angle", "nan"}, "--sun-angle"},
     {"NegativeBackground", {"render", "empty", "--background", "1,-1,1"}, "--background"},
     {"BackgroundOfTwo", {"render", "empty", "--background", "1,1"}, "--background"},
     {"BackgroundAndEnvironment",

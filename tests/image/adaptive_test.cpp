@@ -218,6 +218,7 @@ TEST(Adaptive, ShowsTheWholePictureAndNotTheLastRound) {
     const Scene scene = *makeBuiltinScene("furnace");
     RenderSettings settings = small(4);
     settings.adaptive = true;
+    settings.roulette_start = settings.bounces;  // a path ended by chance is noise
     Renderer renderer(gpu::testDevice(), scene, scene.cameras[0], settings);
     renderer.beginRound(2);
     while (!renderer.roundDone()) renderer.renderSample();
