@@ -218,6 +218,8 @@ private:
         const glm::dvec3 half =
             glm::max(cluster.high - glm::dvec3(record.centre), glm::dvec3(record.centre) - cluster.low);
         record.half_size = vec3(half * (1.0 + 0x1p-20));
+        record.radius = glm::length(record.half_size) * (1.0F + 0x1p-20F);
+        record.inverse_radius2 = record.radius > 0.0F ? 1.0F / (record.radius * record.radius) : 0.0F;
         record.axis = vec3(cluster.normals.axis);
         record.cos_normals = static_cast<float>(std::cos(cluster.normals.angle));
         record.sin_normals = static_cast<float>(std::sin(cluster.normals.angle));

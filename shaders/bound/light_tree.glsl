@@ -16,12 +16,13 @@ LightChildRecord lightChildAt(uint i) {
     vec4 a = uintBitsToFloat(texelFetch(light_tree_texels, first)), b = uintBitsToFloat(texelFetch(light_tree_texels, first + 1));
     vec4 c = uintBitsToFloat(texelFetch(light_tree_texels, first + 2));
     uvec4 d = texelFetch(light_tree_texels, first + 3);
-    return LightChildRecord(a.xyz, a.w, b.xyz, b.w, c.xyz, c.w, uintBitsToFloat(d.x), d.y, 0u, 0u);
+    return LightChildRecord(a.xyz, a.w, b.xyz, b.w, c.xyz, c.w, uintBitsToFloat(d.x), d.y, uintBitsToFloat(d.z), uintBitsToFloat(d.w));
 }
 
 // cos(max(a - b, 0)) of angles in [0, pi] given by cosine and sine.
 float cosineOfDifference(float cos_a, float sin_a, float cos_b, float sin_b) { return cos_a > cos_b ? 1.0 : cos_a * cos_b + sin_a * sin_b; }
 
+// And the cosine of a sine, up to pi / 2.
 float sineOf(float cosine) { return sqrt(max(1.0 - cosine * cosine, 0.0)); }
 
 // What the lights below a child could send to a surface at most, up to a factor that siblings share: intensity, both cosines at their best within the
@@ -29,25 +30,23 @@ float sineOf(float cosine) { return sqrt(max(1.0 - cosine * cosine, 0.0)); }
 float lightImportance(LightChildRecord c, vec3 position, vec3 normal) {
     vec3 d = c.centre - position;
     float d2 = dot(d, d);
-    float r2 = dot(c.half_size, c.half_size);
+    float inverse = inversesqrt(d2);
+    float facing = dot(d, normal);
     // How far the box rises above the surface's horizon.
-    if (dot(d, normal) + dot(c.half_size, abs(normal)) + kLightSlack * sqrt(d2) <= 0.0) return 0.0;
-    if (d2 <= r2) return r2 > 0.0 ? c.intensity / r2 : 0.0;  // inside the bounding sphere nothing is known of directions
-    vec3 w = d * inversesqrt(d2);
-    float sin2_sphere = r2 / d2;
-    float cos_sphere = sqrt(max(1.0 - sin2_sphere, 0.0)), sin_sphere = sqrt(sin2_sphere);
+    if (facing + dot(c.half_size, abs(normal)) + kLightSlack * (d2 * inverse) <= 0.0) return 0.0;
+    if (d2 <= c.radius * c.radius) return c.intensity * c.inverse_radius2;  // inside the bounding sphere nothing is known of directions
+    float sin_sphere = c.radius * inverse, cos_sphere = sineOf(sin_sphere);
 
-    float cos_facing = dot(w, normal);
+    float cos_facing = facing * inverse;
     float cos_receiver = cosineOfDifference(cos_facing, sineOf(cos_facing), cos_sphere, sin_sphere) + kLightSlack;
 
     // The angle to the axis, less the spread of the normals, less the width of the sphere.
-    float cos_axis = -dot(c.axis, w);
+    float cos_axis = -dot(c.axis, d) * inverse;
     if ((c.next & kLightTwoSided) != 0u) cos_axis = abs(cos_axis);
-    float sin_axis = sineOf(cos_axis);
-    float cos_normal = cosineOfDifference(cos_axis, sin_axis, c.cos_normals, c.sin_normals);
+    float cos_normal = cosineOfDifference(cos_axis, sineOf(cos_axis), c.cos_normals, c.sin_normals);
     float cos_emitter = cosineOfDifference(cos_normal, sineOf(cos_normal), cos_sphere, sin_sphere) + kLightSlack;
 
-    return cos_emitter <= c.cos_emission ? 0.0 : c.intensity * max(cos_receiver, kLightSlack) * cos_emitter / d2;
+    return cos_emitter <= c.cos_emission ? 0.0 : c.intensity * max(cos_receiver, kLightSlack) * cos_emitter * (inverse * inverse);
 }
 
 struct TreePick {

@@ -153,8 +153,8 @@ struct LightChildRecord {
     float cos_emission;
     float sin_normals;
     uint next;           // index of a node or, with kLightLeaf, of a light; flags
-    uint reserved0;
-    uint reserved1;
+    float radius;        // of the sphere around the box
+    float inverse_radius2;  // 0 for a point
 };
 LICHT_CONSTANT uint kLightChildTexels = 4u;
 LICHT_CONSTANT uint kLightLeaf = 0x80000000u;

@@ -155,6 +155,28 @@ TEST(TinyLight, GivesWhatItsPowerSays) {
     }
 }
 
+// Half of the wall is dark: what is picked by the mean of the texture, and found by scattering, is one light.
+TEST(TexturedLight, IsWhatScatteringFinds) {
+    Scene scene;
+    scene.materials = {lambert(0.5F), lambert(0.0F, 4.0F)};
+    Texture stripes;
+    stripes.width = 2;
+    stripes.height = 1;
+    stripes.bits = 8;
+    stripes.bytes = {255, 255, 255, 255, 0, 0, 0, 255};
+    scene.textures = {stripes};
+    scene.materials[1].emissive_texture.texture = 0;
+    scene.materials[1].emissive_texture.linear = false;
+    addReceiver(scene, 0.5F);
+    addWall(scene, 2);
+    const Camera camera = downCamera(vec3(0.0F), 0.5F, 3.0F);
+    // The stripes' mirror image is their complement, and the receiver is its own mirror image: half of the
+    // whole wall.
+    for (const DirectLight direct : {DirectLight::mis, DirectLight::area, DirectLight::hemisphere})
+        expectMean(renderFilm(scene, camera, settingsOf(direct, MisHeuristic::power, LightChoice::tree), 128),
+                   0.5 * 0.5 * 4.0 * 0.2000437761);
+}
+
 // A directional light says what a surface that faces it gets, whatever part of the sky it fills.
 TEST(Sun, IlluminatesAlikeAtAnySize) {
     for (const double degrees : {0.0, 0.5332, 20.0, 120.0}) {
