@@ -97,7 +97,7 @@ float pdfOnShape(LightRecord light, float omega, vec3 d, float d2) {
 }
 
 // Density, by solid angle, with which light sampling at `asker` would have found the emitting point `s`; 0: never.
-float pdfOfSurface(Surface s, LightAsker asker, vec3 direction_to_light) {
+float pdfOfSurface(Surface s, LightAsker asker) {
     if (!kLightTriangles || s.light == kNoIndex) return 0.0;
     LightRecord light = lightAt(s.light);
     vec3 d = s.position - asker.position;

@@ -18,8 +18,6 @@ struct PathCounts {
 // Weight of a technique of density pdf where another one finds the same light with other_pdf; a technique that is off finds nothing.
 float misWeight(float pdf, float other_pdf) { return kMisBalance ? balanceWeight(pdf, other_pdf) : powerWeight(pdf, other_pdf); }
 
-// Several light samples at what the camera sees, and several candidates of which one is kept (Talbot 2005), were both tried where there are 200 lamps: less
-// noise a sample by 1.3 to 1.6, for as much more time.
 float weightOfLightSample(LightSample light, float scatter_pdf) { return kDirect == kDirectArea || light.delta ? 1.0 : misWeight(light.pdf, scatter_pdf); }
 
 // light_pdf: with which light sampling would have found what scattering met; 0: not at all.
@@ -29,6 +27,8 @@ float weightOfScattering(float scatter_pdf, float light_pdf) {
 }
 
 // Light that would arrive straight from a sampled light and scatter towards wo, one order of T applied to Le; `ray` asks whether it does.
+// One sample of the lights: several at what the camera sees, and several candidates of which one is kept (Talbot 2005), were both tried where there are 200 lamps: less
+// noise a sample by 1.3 to 1.6, for as much more time.
 vec3 directLight(Surface s, vec3 wo_local, uint dimension, out RayQuery ray) {
     ray = kNoRayQuery;
     LightSample light = sampleLight(s, g_address, dimension);
@@ -93,7 +93,7 @@ vec3 extendPath(inout Path p, out RayQuery light_ray, out RayQuery path_ray) {
     Surface s = surfaceAt(p.hit, p.wo);
     if (kRegularise && p.bounce > 0u) s.bsdf = regularised(s.bsdf);
     if (kEmission || kUnlit) {
-        float weight = p.bounce == 0u ? 1.0 : weightOfScattering(p.scatter_pdf, pdfOfSurface(s, p.from, -p.wo));
+        float weight = p.bounce == 0u ? 1.0 : weightOfScattering(p.scatter_pdf, pdfOfSurface(s, p.from));
         p.radiance += foundLight(p.bounce, p.throughput * weight * s.emission);
     }
     p.alive = p.bounce < frame.bounces;

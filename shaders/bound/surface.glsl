@@ -16,7 +16,6 @@ struct Surface {
     vec3 base_color;
     vec3 emission;       // towards wo, cd/m^2
     uint light;          // in the light table; kNoIndex: found by scattering alone
-    float area;          // of the triangle, m^2
 };
 
 // fp32 rounds the position to a few units in 2^-24 of the vertices' coordinates (PBRT 4, section 6.8.5 has gamma(7)), and the traversal, which
@@ -92,7 +91,6 @@ Bsdf bsdfOf(MaterialRecord m, uvec3 v, vec3 weights, vec3 base) {
 // A triangle's plane.
 struct Face {
     vec3 normal;        // unit, world; the triangle is counter-clockwise seen from where it points to
-    float area;         // m^2
     float error_bound;  // how far from the true plane position and traversal may see each other, metres
 };
 
@@ -115,7 +113,7 @@ Face faceOf(Placement at, vec3 p0, vec3 p1, vec3 p2) {
     float coordinates = dot(abs(normal), max(abs(worldPoint(at, p0)), max(abs(worldPoint(at, p1)), abs(worldPoint(at, p2)))));
     float error = coordinates + scale;
     if (kInstances) error += instanceError(at, normal, p0, p1, p2);
-    return Face(normal, 0.5 * length_area2 * scale * scale, kPositionUnits * error);
+    return Face(normal, kPositionUnits * error);
 }
 
 // Emitted towards wo, cd/m^2. Single-sided surfaces emit from their front.
@@ -138,7 +136,6 @@ Surface surfaceAt(Hit hit, vec3 wo) {
     Face face = faceOf(at, p0, p1, p2);
     bool front = dot(face.normal, wo) >= 0.0;
     s.face_normal = front ? face.normal : -face.normal;
-    s.area = face.area;
     s.error_bound = face.error_bound;
 
     // The shading normal, on the same side; bent back into view where interpolation or a map turns it away from wo.
