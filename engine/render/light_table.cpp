@@ -16,8 +16,8 @@
 namespace licht {
 namespace {
 
-double mean(const Texture& texture) {
-    double sum = 0.0;
+vec3 mean(const Texture& texture) {
+    glm::dvec3 sum(0.0);
     const std::size_t stride = texture.bits / 8;
     const std::size_t texels = std::size_t{texture.width} * texture.height;
     for (std::size_t i = 0; i < texels; ++i) {
@@ -27,19 +27,26 @@ double mean(const Texture& texture) {
             c[k] = linearFromSrgb(stride == 1 ? static_cast<float>(at[0]) / 255.0F
                                               : static_cast<float>(at[0] | at[1] << 8) / 65535.0F);
         }
-        sum += static_cast<double>(luminance(c));
+        sum += glm::dvec3(c);
     }
-    return texels > 0 ? sum / static_cast<double>(texels) : 0.0;
+    return texels > 0 ? vec3(sum / static_cast<double>(texels)) : vec3(0.0F);
 }
 
-// Luminous exitance over pi of each material, one number for all its triangles.
-std::vector<double> emittedLuminance(const Scene& scene) {
+// How much a light's colour counts: all channels alike, for errors are looked at in each of them. By
+// luminance a blue lamp would seldom be asked, and its picture's blue would be noise.
+double strength(const vec3& colour) {
+    const glm::dvec3 c(colour);
+    return (c.x + c.y + c.z) / 3.0;
+}
+
+// What a material emits, one number for all its triangles.
+std::vector<double> emittedStrength(const Scene& scene) {
     std::vector<double> result;
     for (const Material& m : scene.materials) {
-        double value = m.unlit ? 0.0 : static_cast<double>(luminance(m.emission));
-        if (value > 0.0 && m.emissive_texture.present())
+        vec3 value = m.unlit ? vec3(0.0F) : m.emission;
+        if (strength(value) > 0.0 && m.emissive_texture.present())
             value *= mean(scene.textures[m.emissive_texture.texture]);
-        result.push_back(m.double_sided ? 2.0 * value : value);
+        result.push_back((m.double_sided ? 2.0 : 1.0) * strength(value));
     }
     return result;
 }
@@ -82,19 +89,19 @@ std::optional<Rectangle> rectangleOf(const std::array<vec3, 3>& a, const std::ar
     return std::nullopt;
 }
 
-void addShape(LightTable& table, std::vector<double>& weights, LightRecord light, double luminance_of_area) {
+void addShape(LightTable& table, std::vector<double>& weights, LightRecord light, double strength_of_area) {
     const double area = static_cast<double>(glm::length(glm::cross(light.direction, light.intensity)));
     table.lights.push_back(light);
-    weights.push_back(std::isfinite(area) ? area * luminance_of_area : 0.0);
+    weights.push_back(std::isfinite(area) ? area * strength_of_area : 0.0);
 }
 
 void addTriangles(const Scene& scene, LightTable& table, std::vector<double>& weights) {
-    const std::vector<double> luminances = emittedLuminance(scene);
+    const std::vector<double> strengths = emittedStrength(scene);
     for (uint i = 0; i < scene.instances.size(); ++i) {
         const Instance& instance = scene.instances[i];
         const Mesh& mesh = scene.meshes[instance.mesh];
         const Material& material = scene.materials[mesh.material];
-        if (luminances[mesh.material] <= 0.0) continue;
+        if (strengths[mesh.material] <= 0.0) continue;
         table.first_light[i] = static_cast<uint>(table.lights.size());
         LightRecord light{};
         light.emission = material.emission;
@@ -111,7 +118,7 @@ void addTriangles(const Scene& scene, LightTable& table, std::vector<double>& we
                     light.position = r->corner;
                     light.direction = r->first_edge;
                     light.intensity = r->second_edge;
-                    addShape(table, weights, light, luminances[mesh.material]);
+                    addShape(table, weights, light, strengths[mesh.material]);
                     // A hit on the second half finds the same light; nothing picks it a second time.
                     addShape(table, weights, light, 0.0);
                     ++k;
@@ -122,7 +129,7 @@ void addTriangles(const Scene& scene, LightTable& table, std::vector<double>& we
             light.position = p[0];
             light.direction = p[1] - p[0];
             light.intensity = p[2] - p[0];
-            addShape(table, weights, light, 0.5 * luminances[mesh.material]);
+            addShape(table, weights, light, 0.5 * strengths[mesh.material]);
         }
     }
 }
@@ -138,7 +145,7 @@ void copyToSecondHalves(LightTable& table) {
     }
 }
 
-// `weight`: area times luminance of what emits.
+// `weight`: area times strength of what emits.
 LightBound boundOf(const LightRecord& light, double weight) {
     LightBound bound;
     const glm::dvec3 at(light.position);
@@ -159,9 +166,10 @@ LightBound boundOf(const LightRecord& light, double weight) {
         return bound;
     }
     bound.low = bound.high = at;
-    bound.intensity = static_cast<double>(luminance(light.intensity));
+    bound.intensity = strength(light.intensity);
     bound.axis = glm::dvec3(light.direction);
     if ((light.kind & kLightKindMask) == kLightPoint) {
+        bound.intensity *= 4.0;  // a sphere has four times the area that it shows
         bound.axis = glm::dvec3(0, 0, 1);
         bound.normals_angle = std::numbers::pi;
         bound.emission_angle = 0.5 * std::numbers::pi;
@@ -216,9 +224,9 @@ LightRecord punctualRecord(const PunctualLight& light) {
     return record;
 }
 
-// Luminous flux, lumen; a directional light's is what passes through the scene's bounding sphere.
+// Flux; a directional light's is what passes through the scene's bounding sphere.
 double flux(const PunctualLight& light, double radius) {
-    const auto intensity = static_cast<double>(luminance(light.intensity));
+    const double intensity = strength(light.intensity);
     switch (light.kind) {
         case PunctualLight::Kind::point:
             return 4.0 * std::numbers::pi * intensity;

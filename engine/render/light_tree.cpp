@@ -219,11 +219,12 @@ private:
             glm::max(cluster.high - glm::dvec3(record.centre), glm::dvec3(record.centre) - cluster.low);
         record.half_size = vec3(half * (1.0 + 0x1p-20));
         record.radius = glm::length(record.half_size) * (1.0F + 0x1p-20F);
-        record.inverse_radius2 = record.radius > 0.0F ? 1.0F / (record.radius * record.radius) : 0.0F;
+        record.softening = kLightSoftening * record.radius * record.radius;
         record.axis = vec3(cluster.normals.axis);
-        record.cos_normals = static_cast<float>(std::cos(cluster.normals.angle));
-        record.sin_normals = static_cast<float>(std::sin(cluster.normals.angle));
-        record.cos_emission = static_cast<float>(std::cos(cluster.emission_angle));
+        record.mean_normal = static_cast<float>(0.5 * (1.0 + std::cos(cluster.normals.angle)));
+        const double reach = cluster.normals.angle + cluster.emission_angle;
+        record.cos_reach = reach < kPi ? static_cast<float>(std::cos(reach)) : -1.0F;
+        record.sin_reach = reach < kPi ? static_cast<float>(std::sin(reach)) : 0.0F;
         record.intensity = static_cast<float>(cluster.intensity);
         record.next = cluster.two_sided ? kLightTwoSided : 0U;
         return record;
@@ -236,25 +237,32 @@ private:
 };
 
 // shaders/bound/light_tree.glsl in double precision.
+double meanAboveZero(double c, double s) {
+    const double above = std::max(c + s, 0.0);
+    return c >= s || above <= 0.0 ? std::max(c, 0.0) : above * above / (4.0 * s);
+}
+
 double importance(const LightChildRecord& c, const glm::dvec3& position, const glm::dvec3& normal) {
     const glm::dvec3 d = glm::dvec3(c.centre) - position;
-    const double d2 = glm::dot(d, d);
+    const double distance = glm::length(d);
     const glm::dvec3 half(c.half_size);
-    const double r2 = glm::dot(half, half);
-    const auto intensity = static_cast<double>(c.intensity);
     const auto slack = static_cast<double>(kLightSlack);
-    if (glm::dot(d, normal) + glm::dot(half, glm::abs(normal)) + slack * std::sqrt(d2) <= 0.0) return 0.0;
-    if (d2 <= r2) return r2 > 0.0 ? intensity / r2 : 0.0;
-    const glm::dvec3 w = d / std::sqrt(d2);
-    const auto angle = [](double cosine) { return std::acos(std::clamp(cosine, -1.0, 1.0)); };
-    const double b = std::asin(std::min(std::sqrt(r2 / d2), 1.0));
-    const double cos_receiver = std::cos(std::max(angle(glm::dot(w, normal)) - b, 0.0)) + slack;
-    double towards = -glm::dot(glm::dvec3(c.axis), w);
-    if ((c.next & kLightTwoSided) != 0) towards = std::abs(towards);
-    const double normals = std::atan2(static_cast<double>(c.sin_normals), static_cast<double>(c.cos_normals));
-    const double cos_emitter = std::cos(std::max(angle(towards) - normals - b, 0.0)) + slack;
-    if (cos_emitter <= static_cast<double>(c.cos_emission)) return 0.0;
-    return intensity * std::max(cos_receiver, slack) * cos_emitter / d2;
+    if (glm::dot(d, normal) + glm::dot(half, glm::abs(normal)) + slack * distance <= 0.0) return 0.0;
+    const glm::dvec3 w = distance > 0.0 ? d / distance : glm::dvec3(0.0);
+    const double radius = glm::length(half);
+    const double sphere = radius < distance ? std::asin(radius / distance) : 0.5 * kPi;
+    const double received = std::max(meanAboveZero(glm::dot(w, normal), std::sin(sphere)),
+                                     static_cast<double>(kLightLeastReceived) * std::sin(sphere) + slack);
+    double cos_axis = -glm::dot(glm::dvec3(c.axis), w);
+    if ((c.next & kLightTwoSided) != 0) cos_axis = std::abs(cos_axis);
+    const double reach =
+        std::atan2(static_cast<double>(c.sin_reach), static_cast<double>(c.cos_reach)) + sphere;
+    const double spread = reach < kPi ? -std::cos(reach) : 1.0;
+    if (cos_axis + slack <= -spread) return 0.0;
+    const double emitted = std::max(meanAboveZero(static_cast<double>(c.mean_normal) * cos_axis, spread),
+                                    static_cast<double>(kLightLeastEmitted));
+    const double square = distance * distance + static_cast<double>(c.softening);
+    return square > 0.0 ? static_cast<double>(c.intensity) * received * emitted / square : 0.0;
 }
 
 }  // namespace

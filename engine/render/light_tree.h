@@ -15,12 +15,12 @@ struct LightBound {
     glm::dvec3 axis;              ///< unit: the middle of its normals
     double normals_angle = 0.0;   ///< radians: how far normals stray from the axis; pi: everywhere
     double emission_angle = 0.0;  ///< radians: how far light leaves from a normal
-    double intensity = 0.0;       ///< cd, towards where it is brightest; greater than 0
+    double intensity = 0.0;       ///< cd towards the axis if all normals were it; greater than 0
     bool two_sided = false;       ///< shines along -axis too
 };
 
-/// A tree over lights: one is picked by walking down, at each node by what its children could send at
-/// most. Conty Estevez and Kulla 2018, Importance Sampling of Many Lights with Adaptive Tree Splitting.
+/// A tree over lights: one is picked by walking down, at each node by what its children send about. Conty
+/// Estevez and Kulla 2018, Importance Sampling of Many Lights with Adaptive Tree Splitting.
 struct LightTree {
     std::vector<LightChildRecord> children;  ///< of node i: 4i to 4i + 3; node 0 is the root
     std::vector<uint> trails;                ///< per light: bits 2k and 2k + 1 choose the child at level k
