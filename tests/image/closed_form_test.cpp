@@ -27,66 +27,6 @@ RenderSettings square(std::uint32_t side, std::uint32_t bounces, DirectLight dir
     return settings;
 }
 
-// Any closed shape, emission Le and albedo r everywhere: L_n = Le (1 - r^(n+1)) / (1 - r) in every pixel,
-// without noise, because every sample of every bounce is worth exactly r. Rounding: two per bounce of a sum
-// that stays below twice its first term.
-// A ray that starts within 64 units of 2^-24 of a wall's extent may pass that wall: along the edges of the
-// room that is a strip of 7.6e-6 m, and 5.7e-6 of all rays leave (measured: 72 of 12.6 million, whatever the
-// numbers). Such paths end early, and of the 737,000 rays here at most 4 deviations more than expected do.
-TEST(Furnace, EveryBounceCountIsExactAndFreeOfNoise) {
-    const Scene scene = *makeBuiltinScene("furnace");
-    double rays = 0.0;
-    int darker = 0;
-    for (const std::uint32_t bounces : {0U, 1U, 2U, 3U, 4U, 5U, 6U, 7U, 8U, 12U, 32U, 100U}) {
-        RenderSettings settings = square(32, bounces);
-        settings.roulette_start = bounces;  // a path ended by chance is noise
-        constexpr std::uint32_t kSamples = 4;
-        const Film film = renderFilm(scene, scene.cameras[0], settings, kSamples);
-        rays += 32.0 * 32.0 * kSamples * bounces;
-        const double exact = 0.5 * (1.0 - std::pow(0.5, bounces + 1.0)) / 0.5;
-        for (int y = 0; y < 32; ++y) {
-            for (int x = 0; x < 32; ++x) {
-                // A deviation of one rounding (6e-8) in each sample is no noise.
-                const bool noisy = film.variance.at(x, y, 0) >= 1e-14F;
-                if (noisy) ++darker;
-                for (int c = 0; c < 3; ++c) {
-                    const auto value = static_cast<double>(film.mean.at(x, y, c));
-                    ASSERT_LT(value, exact * (1.0 + 1e-4)) << bounces << " bounces, pixel " << x << ' ' << y;
-                    if (noisy) continue;
-                    ASSERT_GT(value, exact * (1.0 - 1e-4)) << bounces << " bounces, pixel " << x << ' ' << y;
-                    ASSERT_LT(film.variance.at(x, y, c), 1e-14F)
-                        << bounces << " bounces, pixel " << x << ' ' << y;
-                }
-            }
-        }
-    }
-    const double expected = 5.7e-6 * rays;
-    EXPECT_LE(darker, expected + 4.0 * std::sqrt(expected));
-}
-
-// Albedo one: the series has no limit and grows by Le a bounce.
-TEST(Furnace, AlbedoOneGrowsLinearly) {
-    Scene scene = *makeBuiltinScene("furnace");
-    scene.materials[0].base_color = vec4(1.0F);
-    for (const std::uint32_t bounces : {1U, 10U, 100U}) {
-        RenderSettings settings = square(16, bounces);
-        settings.roulette_start = bounces;
-        const Film film = renderFilm(scene, scene.cameras[0], settings, 2);
-        expectMean(film, 0.5 * (bounces + 1.0));
-        EXPECT_NEAR(pictureMean(film, 0).mean, 0.5 * (bounces + 1.0), 1e-4 * 0.5 * (bounces + 1.0));
-    }
-}
-
-// Roulette is noise around the same mean, however early it begins.
-TEST(Furnace, RouletteKeepsTheMean) {
-    const Scene scene = *makeBuiltinScene("furnace");
-    RenderSettings settings = square(64, 20);
-    settings.roulette_start = 1;
-    const Film film = renderFilm(scene, scene.cameras[0], settings, 64);
-    expectMean(film, 1.0 - std::pow(0.5, 21));
-    EXPECT_GT(pictureMean(film, 0).standard_error, 0.0);
-}
-
 // The picture is exactly the receiving square, so its mean is albedo * Le * F. Howell, A Catalog of Radiation
 // Heat Transfer Configuration Factors.
 class FormFactor : public testing::TestWithParam<DirectLight> {};
