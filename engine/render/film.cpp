@@ -4,8 +4,6 @@
 #include <cmath>
 #include <cstring>
 
-#include "licht/measure/metrics.h"
-
 namespace licht {
 namespace {
 
@@ -95,24 +93,6 @@ Film mergeFilms(const Film& a, const Film& b) {
         }
     }
     return merged;
-}
-
-double relativeError(const Film& film) {
-    if (film.samples < 2) return -1.0;
-    const std::size_t count = pixels(film);
-    double picture_mean = 0.0;
-    for (std::size_t i = 0; i < count; ++i)
-        for (std::size_t c = 0; c < 3; ++c) picture_mean += static_cast<double>(film.mean.texels[4 * i + c]);
-    picture_mean /= 3.0 * static_cast<double>(count);
-    double sum = 0.0;
-    for (std::size_t i = 0; i < count; ++i) {
-        for (std::size_t c = 0; c < 3; ++c) {
-            const double mean = static_cast<double>(film.mean.texels[4 * i + c]);
-            const double variance = static_cast<double>(film.variance.texels[3 * i + c]);
-            if (variance > 0.0) sum += relativeSquare(variance, mean, picture_mean);
-        }
-    }
-    return std::sqrt(sum / (3.0 * static_cast<double>(count)));
 }
 
 }  // namespace licht

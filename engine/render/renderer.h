@@ -115,7 +115,8 @@ struct LightBatch {
 Film mergeFilms(const Film& a, const Film& b);
 
 /// sqrt of the estimated relMSE: mean over pixels and channels of variance of the mean / (mean^2 + 0.01 *
-/// (the picture's mean)^2). Negative while it is unknown (fewer than two samples).
+/// (the picture's mean)^2). Negative while it is unknown (fewer than two samples). As if samples were
+/// independent: for those of an even sequence ErrorEstimate (error_estimate.h) is closer.
 double relativeError(const Film& film);
 
 enum class Tonemap : std::uint32_t { none, neutral, agx, aces };

@@ -154,8 +154,10 @@ int render(const RenderOptions& options) {
 
     InterruptWatch interrupt;
     std::optional<ProgressLine> progress(std::in_place, stderr, options.quiet);
-    const auto loop = options.settings.adaptive ? renderAdaptively : renderUntil;
-    const LoopResult result = loop(renderer, stopRules(options), interrupt, *progress);
+    const StopRules rules = stopRules(options);
+    const LoopResult result = options.settings.adaptive
+                                  ? renderAdaptively(renderer, rules, interrupt, *progress)
+                                  : renderUntil(renderer, report.settings, rules, interrupt, *progress);
     progress.reset();
     interrupt.shield();
 

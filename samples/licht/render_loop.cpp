@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "licht/command/process_clock.h"
+#include "licht/render/error_estimate.h"
 
 namespace licht {
 namespace {
@@ -24,11 +25,12 @@ ProgressState progressOf(const StopRules& rules, const Advance& advance) {
     return state;
 }
 
-LoopResult renderUntil(Renderer& renderer, const StopRules& rules, const InterruptWatch& interrupt,
-                       ProgressLine& progress) {
+LoopResult renderUntil(Renderer& renderer, const RenderSettings& settings, const StopRules& rules,
+                       const InterruptWatch& interrupt, ProgressLine& progress) {
     LoopResult result;
     Advance advance;
-    ErrorSchedule schedule(rules.error);
+    ErrorEstimate estimate(settings.sampler, settings.first_sample);
+    ErrorSchedule schedule(rules.error, settings.sampler != Sequence::random);
     const auto start = std::chrono::steady_clock::now();
     while (result.stopped_by == Stop::none) {
         renderer.renderSample();
@@ -43,7 +45,7 @@ LoopResult renderUntil(Renderer& renderer, const StopRules& rules, const Interru
             const auto before = std::chrono::steady_clock::now();
             renderer.finish();
             const auto finished = std::chrono::steady_clock::now();
-            advance.error = relativeError(renderer.readFilm());
+            advance.error = estimate.look(renderer.readFilm());
             advance.error_samples = advance.samples;
             advance.seconds += std::chrono::duration<double>(finished - before).count();
             schedule.checked(advance, secondsSince(finished));
@@ -54,7 +56,7 @@ LoopResult renderUntil(Renderer& renderer, const StopRules& rules, const Interru
     renderer.finish();
     result.render_seconds = secondsSince(start);
     result.film = renderer.readFilm();
-    result.error = relativeError(result.film);
+    result.error = estimate.look(result.film);
     return result;
 }
 

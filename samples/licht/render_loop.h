@@ -17,8 +17,8 @@ struct LoopResult {
 /// What the progress line shows.
 ProgressState progressOf(const StopRules& rules, const Advance& advance);
 
-/// Renders sample after sample until a rule is met; at least one.
-LoopResult renderUntil(Renderer& renderer, const StopRules& rules, const InterruptWatch& interrupt,
-                       ProgressLine& progress);
+/// Renders sample after sample until a rule is met; at least one. `settings` are the renderer's.
+LoopResult renderUntil(Renderer& renderer, const RenderSettings& settings, const StopRules& rules,
+                       const InterruptWatch& interrupt, ProgressLine& progress);
 
 }  // namespace licht

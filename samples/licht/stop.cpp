@@ -9,6 +9,10 @@ namespace {
 constexpr double kSecondsBetweenChecks = 2.0;
 constexpr double kShareForChecks = 0.05;
 
+double powerOfTwoAbove(double samples) {
+    return std::exp2(std::floor(std::log2(samples)) + 1.0);
+}
+
 }  // namespace
 
 std::string_view stopName(Stop stop) {
@@ -70,11 +74,16 @@ void ErrorSchedule::checked(const Advance& advance, double cost) {
     spent_ += cost;
     last_seconds_ = advance.seconds;
     earliest_seconds_ = (spent_ + cost) / kShareForChecks;
-    const double twice = 2.0 * advance.samples;
     const auto needed = wanted_error_ ? samplesToReach(*wanted_error_, advance) : std::nullopt;
-    next_samples_ =
-        needed ? std::min(std::ceil(std::max<double>(*needed, kFewestSamplesToTrust)), twice) : twice;
-    next_samples_ = std::max(next_samples_, advance.samples + 1.0);
+    next_samples_ = powerOfTwoAbove(advance.samples);
+    if (needed) {
+        double forecast = std::ceil(std::max<double>(*needed, kFewestSamplesToTrust));
+        if (in_blocks_) {
+            const double block = 0.125 * powerOfTwoAbove(forecast);
+            forecast = std::ceil(forecast / block) * block;
+        }
+        next_samples_ = std::clamp(forecast, advance.samples + 1.0, next_samples_);
+    }
 }
 
 }  // namespace licht

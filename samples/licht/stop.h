@@ -42,12 +42,14 @@ std::optional<double> samplesToReach(double wanted_error, const Advance& advance
 /// Forecast of the seconds until the first rule is met; negative when none can be told.
 double secondsLeft(const StopRules& rules, const Advance& advance);
 
-/// Reading the film to estimate its error stalls the device. This says when it is worth it: at sample counts
-/// that double, at the count where the wanted error is forecast, at least every two seconds, and never for
-/// more than a twentieth of the time.
+/// Reading the film to estimate its error stalls the device. This says when it is worth it: at powers of two,
+/// at the count where the wanted error is forecast, at least every two seconds, and never for more than a
+/// twentieth of the time. `in_blocks`: samples are even in blocks of powers of two, so a forecast is rounded
+/// up to a quarter of its power of two.
 class ErrorSchedule {
 public:
-    explicit ErrorSchedule(std::optional<double> wanted_error) : wanted_error_(wanted_error) {}
+    explicit ErrorSchedule(std::optional<double> wanted_error, bool in_blocks = false)
+        : wanted_error_(wanted_error), in_blocks_(in_blocks) {}
 
     [[nodiscard]] bool due(std::uint32_t samples, double seconds) const;
     /// Tells what the estimate at `advance` cost in seconds.
@@ -55,6 +57,7 @@ public:
 
 private:
     std::optional<double> wanted_error_;
+    bool in_blocks_;
     double next_samples_ = 4.0;
     double last_seconds_ = 0.0;
     double earliest_seconds_ = 0.0;  ///< before, the costs so far would exceed their share

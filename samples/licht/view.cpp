@@ -8,6 +8,7 @@
 #include "licht/command/stop.h"
 #include "licht/command/view_controls.h"
 #include "licht/core/error.h"
+#include "licht/render/error_estimate.h"
 #include "licht/window/swapchain.h"
 #include "licht/window/window.h"
 
@@ -20,8 +21,11 @@ constexpr double kSecondsAsleep =
 
 /// Since the picture last started anew.
 struct Accumulation {
-    double started = 0.0;  ///< seconds of the window's clock
+    Accumulation(double seconds, const RenderSettings& settings)
+        : started(seconds), estimate(settings.sampler, settings.first_sample) {}
+    double started;  ///< seconds of the window's clock
     Advance advance;
+    ErrorEstimate estimate;
     ErrorSchedule schedule{std::nullopt};
 };
 
@@ -36,7 +40,7 @@ std::string title(const std::string& scene, const Accumulation& accumulation, co
 void estimateError(Renderer& renderer, const Window& window, Accumulation& accumulation) {
     renderer.finish();
     const double before = window.seconds();
-    accumulation.advance.error = relativeError(renderer.readFilm());
+    accumulation.advance.error = accumulation.estimate.look(renderer.readFilm());
     accumulation.advance.error_samples = renderer.samples();
     accumulation.schedule.checked(accumulation.advance, window.seconds() - before);
 }
@@ -63,7 +67,7 @@ int view(const ViewOptions& options) {
     const ViewState start{OrbitCamera(shot.camera, sceneBounds(source.scene)),
                           options.exposure.value_or(source.scene.default_exposure), options.tonemap};
     ViewState state = start;
-    Accumulation accumulation{window.seconds(), {}, ErrorSchedule{std::nullopt}};
+    Accumulation accumulation(window.seconds(), settings);
     double titled = 0.0;
     InputState input;
     for (std::uint64_t frame = 0; !window.shouldClose() && (options.frames == 0 || frame < options.frames);
@@ -84,8 +88,7 @@ int view(const ViewOptions& options) {
             settings.size = pixels;
         }
         renderer.setCamera(state.orbit.camera());
-        if (renderer.samples() < samples_before)
-            accumulation = {window.seconds(), {}, ErrorSchedule{std::nullopt}};
+        if (renderer.samples() < samples_before) accumulation = Accumulation(window.seconds(), settings);
 
         if (!full) renderer.renderSample();
         swapchain.present(renderer.displayImage(), [&](gpu::Commands& commands) {

@@ -70,6 +70,17 @@ TEST(ErrorSchedule, LooksWhereTheErrorIsForecast) {
     EXPECT_TRUE(schedule.due(121, 1.21) || schedule.due(122, 1.22));
 }
 
+// From 64 to 128 in blocks of 16.
+TEST(ErrorSchedule, RoundsForecastsUpToWholeBlocks) {
+    ErrorSchedule schedule(0.1, true);
+    schedule.checked(at(100, 1.0, 0.105, 100), 0.0);  // 110.25
+    EXPECT_FALSE(schedule.due(111, 1.11));
+    EXPECT_TRUE(schedule.due(112, 1.12));
+    schedule.checked(at(112, 1.12, 0.101, 112), 0.0);
+    EXPECT_FALSE(schedule.due(127, 1.27));
+    EXPECT_TRUE(schedule.due(128, 1.28));
+}
+
 TEST(ErrorSchedule, TakesAtMostATwentiethOfTheTime) {
     ErrorSchedule schedule(0.001);
     const double cost = 0.3;

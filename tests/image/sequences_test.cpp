@@ -21,17 +21,6 @@ namespace {
 
 constexpr std::uint32_t kSide = 24;
 
-// A floor under a lamp, both whole in view of each other: a smooth integrand but for the lamp's rim, which
-// scattering sees.
-Scene smoothScene() {
-    Scene scene;
-    scene.materials = {lambert(0.5F), lambert(0.0F, 4.0F)};
-    place(scene, quadMesh("floor", 0, vec3(-4, 0, 4), vec3(4, 0, 4), vec3(4, 0, -4), vec3(-4, 0, -4)));
-    place(scene, quadMesh("lamp", 1, vec3(-0.5F, 1, -0.5F), vec3(0.5F, 1, -0.5F), vec3(0.5F, 1, 0.5F),
-                          vec3(-0.5F, 1, 0.5F)));
-    return scene;
-}
-
 RenderSettings settingsFor(Sequence sampler, DirectLight direct = DirectLight::mis) {
     RenderSettings settings;
     settings.size = uvec2(kSide);
@@ -39,10 +28,6 @@ RenderSettings settingsFor(Sequence sampler, DirectLight direct = DirectLight::m
     settings.direct = direct;
     settings.sampler = sampler;
     return settings;
-}
-
-Camera floorCamera() {
-    return downCamera(vec3(0.0F), 0.4F, 0.9F);
 }
 
 /// Root mean square error of a channel, and of what the film itself expects.
@@ -68,7 +53,7 @@ Error errorOf(const Film& film, const Film& reference) {
 std::vector<Error> errors(Sequence sampler, DirectLight direct, const Film& reference) {
     RenderSettings settings = settingsFor(sampler, direct);
     settings.blue_bits = 8;
-    Renderer renderer(gpu::testDevice(), smoothScene(), floorCamera(), settings);
+    Renderer renderer(gpu::testDevice(), litFloor(), litFloorCamera(), settings);
     std::vector<Error> result;
     for (std::uint32_t wanted = 4; wanted <= 256; wanted *= 2) {
         while (renderer.samples() < wanted) renderer.renderSample();
@@ -94,7 +79,7 @@ double slope(const std::vector<Error>& errors) {
 TEST(SmoothScene, errorsFallAsTheSequencePromises) {
     RenderSettings settings = settingsFor(Sequence::sobol, DirectLight::area);
     settings.seed = 1;
-    const Film reference = renderFilm(smoothScene(), floorCamera(), settings, 2048);
+    const Film reference = renderFilm(litFloor(), litFloorCamera(), settings, 2048);
     const std::vector<Error> random = errors(Sequence::random, DirectLight::mis, reference);
     EXPECT_NEAR(slope(random), -0.5, 0.05);
     // What the film says of its own error is right for independent samples ...
@@ -138,7 +123,7 @@ TEST(Sequences, endWithTheLastIndex) {
         RenderSettings settings = settingsFor(sampler);
         settings.size = uvec2(8);
         settings.first_sample = 0xfffffff8U;
-        Renderer renderer(gpu::testDevice(), smoothScene(), floorCamera(), settings);
+        Renderer renderer(gpu::testDevice(), litFloor(), litFloorCamera(), settings);
         for (int i = 0; i < 8; ++i) renderer.renderSample();
         EXPECT_THROW(renderer.renderSample(), InputError);
         EXPECT_EQ(renderer.samples(), 8U);
@@ -158,7 +143,7 @@ TEST(EnvironmentSampling, tablesAreThereWhereTheyAreCalledFor) {
             }
         return uvec2(0);
     };
-    Scene scene = smoothScene();
+    Scene scene = litFloor();
     EXPECT_EQ(extent(scene, EnvironmentSampling::alias), uvec2(1, 1));
     scene.environment = Environment{"sky", Image(32, 16, 3)};
     std::fill(scene.environment->radiance.texels.begin(), scene.environment->radiance.texels.end(), 1.0F);

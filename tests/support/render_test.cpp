@@ -8,6 +8,8 @@
 
 #include "licht/image/exr.h"
 #include "licht/measure/ztest.h"
+#include "licht/scenes/assembly.h"
+#include "licht/scenes/shapes.h"
 #include "support/gpu_test.h"
 
 namespace licht {
@@ -82,6 +84,19 @@ Material lambert(float albedo, float emission) {
     m.metallic = 0.0F;
     m.specular = 0.0F;
     return m;
+}
+
+Scene litFloor() {
+    Scene scene;
+    scene.materials = {lambert(0.5F), lambert(0.0F, 4.0F)};
+    place(scene, quadMesh("floor", 0, vec3(-4, 0, 4), vec3(4, 0, 4), vec3(4, 0, -4), vec3(-4, 0, -4)));
+    place(scene, quadMesh("lamp", 1, vec3(-0.5F, 1, -0.5F), vec3(0.5F, 1, -0.5F), vec3(0.5F, 1, 0.5F),
+                          vec3(-0.5F, 1, 0.5F)));
+    return scene;
+}
+
+Camera litFloorCamera() {
+    return downCamera(vec3(0.0F), 0.4F, 0.9F);
 }
 
 Image colorOf(const Film& film) {

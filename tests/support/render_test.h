@@ -32,6 +32,12 @@ Camera downCamera(const vec3& centre, float half, float height);
 /// A Lambertian material, no coat.
 Material lambert(float albedo, float emission = 0.0F);
 
+/// A floor under a lamp, both whole in view of each other: a smooth integrand but for the lamp's rim, which
+/// scattering sees.
+Scene litFloor();
+/// Sees the middle of that floor from below the lamp.
+Camera litFloorCamera();
+
 /// RGB of a film's RGBA mean.
 Image colorOf(const Film& film);
 
