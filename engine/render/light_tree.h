@@ -29,8 +29,17 @@ struct LightTree {
 /// At least two lights, at most 2^24 (else the trails do not fit).
 LightTree buildLightTree(std::span<const LightBound> lights);
 
-/// Probability that a walk from a surface point ends at the light of that trail; the shader's formula in
-/// double precision. normal: unit.
-double lightTreePmf(const LightTree& tree, const glm::dvec3& position, const glm::dvec3& normal, uint trail);
+/// How a surface receives light (shaders/bound/light_tree.glsl); Lambertian unless said otherwise.
+struct LightReceiver {
+    glm::dvec3 position;  ///< world
+    glm::dvec3 normal;    ///< world, unit
+    glm::dvec3 wo{0.0};   ///< world, unit, where it sends the light to; heeded where there is a coat
+    double alpha = 1.0;   ///< GGX width of the coat
+    double coat = 0.0;    ///< F G / (4 cos_o) of the coat over the base's albedo
+};
+
+/// Probability that a walk from a surface ends at the light of that trail; the shader's formula in double
+/// precision.
+double lightTreePmf(const LightTree& tree, const LightReceiver& receiver, uint trail);
 
 }  // namespace licht

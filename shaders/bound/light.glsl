@@ -41,13 +41,32 @@ struct LightSample {
 
 const LightSample kNoLight = LightSample(vec3(0.0), 0.0, vec3(0.0), 0.0, false, false);
 
-// Who asks for lights: the choice among them depends on where the surface is and whither it faces.
+// Who asks for lights: the choice among them depends on where the surface is, whither it faces and what it reflects where. Packed, so that a path
+// can carry it; picking and looking up both read it from here.
 struct LightAsker {
     vec3 position;  // world
-    uint normal;    // shading normal, packed, so that a path can carry it
+    uint normal;    // shading normal
+    uint wo;
+    uint gloss;     // two halves: GGX width; coat over base
 };
 
-LightAsker askerAt(Surface s) { return LightAsker(s.position, packOctahedral(s.frame.normal)); }
+const LightAsker kNobody = LightAsker(vec3(0.0), 0u, 0u, 0u);
+
+// wo: world, unit.
+LightAsker askerAt(Surface s, vec3 wo) {
+    LightAsker asker = LightAsker(s.position, packOctahedral(s.frame.normal), 0u, 0u);
+    if (kGlossy && kLights == kLightsTree) {
+        float cos_o = dot(wo, s.frame.normal);
+        asker.wo = packOctahedral(wo);
+        asker.gloss = cos_o > 0.0 ? packHalf2x16(vec2(s.bsdf.alpha, coatOverBase(s.bsdf, cos_o))) : 0u;
+    }
+    return asker;
+}
+
+Receiver receiverOf(LightAsker asker) {
+    vec2 gloss = unpackHalf2x16(asker.gloss);
+    return Receiver(asker.position, unpackOctahedral(asker.normal), unpackOctahedral(asker.wo), gloss.x, gloss.y);
+}
 
 struct LightPick {
     uint light;  // kNoIndex: none
@@ -65,14 +84,14 @@ LightPick pickLight(LightAsker asker, vec2 u) {
     if (slot > 0u) return LightPick(frame.tree_lights + slot - 1u, 1.0);
     // What the two numbers have not yet decided is uniform again.
     float rest = keep ? u.y / column.threshold : (u.y - column.threshold) / (1.0 - column.threshold);
-    TreePick pick = pickInTree(asker.position, unpackOctahedral(asker.normal), vec2(fract(at), min(rest, 0.99999994)));
+    TreePick pick = pickInTree(receiverOf(asker), vec2(fract(at), min(rest, 0.99999994)));
     return LightPick(pick.light, pick.pmf);
 }
 
 // Probability of picking light `index` from there.
 float pmfOfLight(LightRecord light, uint index, LightAsker asker) {
     if (kLights != kLightsTree || index >= frame.tree_lights || light.pmf <= 0.0) return light.pmf;
-    return light.pmf * pmfInTree(asker.position, unpackOctahedral(asker.normal), light.trail);
+    return light.pmf * pmfInTree(receiverOf(asker), light.trail);
 }
 
 uint kindOf(LightRecord light) { return light.kind & kLightKindMask; }
@@ -176,10 +195,10 @@ LightSample samplePunctualLight(LightRecord light, float pmf, Surface from) {
     return LightSample(light.position - offsetOrigin(from, direction), 1.0, irradiance, pmf, true, true);
 }
 
-LightSample sampleLight(Surface from, SampleAddress address, uint dimension) {
+LightSample sampleLight(Surface from, LightAsker asker, SampleAddress address, uint dimension) {
     if (frame.light_slots == 0u) return kNoLight;
     vec4 u = sample4(address, dimension + kDimensionLight);  // xy: where on the light; zw: which one
-    LightPick pick = pickLight(askerAt(from), u.zw);
+    LightPick pick = pickLight(asker, u.zw);
     if (pick.light == kNoIndex) return kNoLight;
     LightRecord light = lightAt(pick.light);
     float pmf = kLights == kLightsTree ? light.pmf * pick.pmf : light.pmf;

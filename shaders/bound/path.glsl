@@ -29,9 +29,9 @@ float weightOfScattering(float scatter_pdf, float light_pdf) {
 // Light that would arrive straight from a sampled light and scatter towards wo, one order of T applied to Le; `ray` asks whether it does.
 // One sample of the lights: several at what the camera sees, and several candidates of which one is kept (Talbot 2005), were both tried where there are 200 lamps: less
 // noise a sample by 1.3 to 1.6, for as much more time.
-vec3 directLight(Surface s, vec3 wo_local, uint dimension, out RayQuery ray) {
+vec3 directLight(Surface s, LightAsker asker, vec3 wo_local, uint dimension, out RayQuery ray) {
     ray = kNoRayQuery;
-    LightSample light = sampleLight(s, g_address, dimension);
+    LightSample light = sampleLight(s, asker, g_address, dimension);
     if (!light.valid) return vec3(0.0);
     vec3 wi = normalize(light.direction);
     if (dot(wi, s.face_normal) <= 0.0) return vec3(0.0);
@@ -58,7 +58,7 @@ struct Path {
 };
 
 // wo: unit, world, away from the scene.
-Path beginPath(Hit hit, vec3 wo) { return Path(hit, wo, vec3(0.0), vec3(1.0), LightAsker(vec3(0.0), 0u), 0.0, 0u, true); }
+Path beginPath(Hit hit, vec3 wo) { return Path(hit, wo, vec3(0.0), vec3(1.0), kNobody, 0.0, 0u, true); }
 
 // The including shader defines what else happens to light that a path found, and to the rays that looked for light of an order: nothing, or a note.
 void onLight(uint order, vec3 kept, vec3 lost);
@@ -103,7 +103,8 @@ vec3 extendPath(inout Path p, out RayQuery light_ray, out RayQuery path_ray) {
     uint dimension = kDimensionBounce + kDimensionsPerBounce * p.bounce;
     vec3 wo_local = localFromWorld(s.frame, p.wo);
     vec3 direct = vec3(0.0);
-    if (kLightTriangles || kPunctualLights || kEnvironment) direct = p.throughput * directLight(s, wo_local, dimension, light_ray);
+    LightAsker asker = askerAt(s, p.wo);
+    if (kLightTriangles || kPunctualLights || kEnvironment) direct = p.throughput * directLight(s, asker, wo_local, dimension, light_ray);
 
     // Sample the BSDF: the direction by the pair of numbers that is spread evenly together.
     vec4 u = sample4(g_address, dimension + kDimensionScatter);
@@ -125,7 +126,7 @@ vec3 extendPath(inout Path p, out RayQuery light_ray, out RayQuery path_ray) {
     if (p.alive) {
         path_ray = RayQuery(offsetOrigin(s, wi), wi, uintBitsToFloat(0x7f800000u), true);
         p.wo = -wi;
-        p.from = askerAt(s);
+        p.from = asker;
         p.scatter_pdf = scattered.pdf;
         ++p.bounce;
     }

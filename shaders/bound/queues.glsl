@@ -57,7 +57,12 @@ Path loadPath(uint path) {
     p.scatter_pdf = uintBitsToFloat(d.w);
     p.throughput = uintBitsToFloat(t.xyz);
     p.bounce = t.w & 0xffffu;
-    p.from = LightAsker(uintBitsToFloat(f.xyz), pathBits(path, 4u).w);
+    p.from = LightAsker(uintBitsToFloat(f.xyz), pathBits(path, 4u).w, 0u, 0u);
+    if (kGlossy && kLights == kLightsTree) {
+        uvec4 g = pathBits(path, 5u);
+        p.from.wo = g.x;
+        p.from.gloss = g.y;
+    }
     return p;
 }
 
@@ -66,6 +71,7 @@ void storePath(uint path, Path p, uint rays_before, uvec2 pixel) {
     queue_paths[at + 1u] = uvec4(floatBitsToUint(p.wo), floatBitsToUint(p.scatter_pdf));
     queue_paths[at + 2u] = uvec4(floatBitsToUint(p.throughput), p.bounce | (rays_before << 16u));
     queue_paths[at + 3u] = uvec4(floatBitsToUint(p.from.position), pixel.x | (pixel.y << 16u));
+    if (kGlossy && kLights == kLightsTree) queue_paths[at + 5u] = uvec4(p.from.wo, p.from.gloss, 0u, 0u);
 }
 
 void storeHit(uint path, Hit hit) { queue_paths[path * kPathTexels] = uvec4(hit.instance, hit.primitive, floatBitsToUint(hit.b1), floatBitsToUint(hit.b2)); }

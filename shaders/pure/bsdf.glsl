@@ -46,6 +46,9 @@ Bsdf regularised(Bsdf b) {
     return b;
 }
 
+// Narrower lobes find lights by scattering.
+const float kLeastChosenWidth = 0.02;
+
 float largest(vec3 c) { return max(c.x, max(c.y, c.z)); }
 
 bool hasFilm(Bsdf b) { return kIridescence && b.film.strength > 0.0; }
@@ -92,6 +95,16 @@ float coatProbability(Bsdf b, vec3 wo) {
     if (base <= 0.0) return 1.0;
     // Never starve a lobe: the estimate of its share is for wo alone.
     return clamp(coat / (coat + base), 0.1, 0.9);
+}
+
+// What the coat reflects of light along the mirror direction, F G / (4 cos_o), over the base's albedo; times D it is pi f cos of the coat over that of the
+// base. For choosing lights: of a film its plain part counts, and what has no base is taken to have a little.
+float coatOverBase(Bsdf b, float cos_o) {
+    const float kLeastBase = 0.05;
+    float coat = largest(fresnelSchlick(b.f0, b.f90, cos_o));
+    float base = max(largest(b.diffuse), kLeastBase * coat);
+    if (coat <= 0.0 || b.alpha < kLeastChosenWidth) return 0.0;
+    return coat * ggxG1(vec3(sqrt(max(1.0 - cos_o * cos_o, 0.0)), 0.0, cos_o), b.alpha) / (4.0 * cos_o * base);
 }
 
 vec3 bsdfEvaluate(Bsdf b, vec3 wo, vec3 wi) {

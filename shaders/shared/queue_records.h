@@ -13,7 +13,7 @@ struct QueuePush {
 };
 
 // Records of whole texels, because they are read as such.
-LICHT_CONSTANT uint kPathTexels = 5u;    // hit; wo and scatter_pdf; throughput and bounce | rays before << 16; from and pixel x | y << 16; radiance and normal there
+LICHT_CONSTANT uint kPathTexels = 6u;    // hit; wo and scatter_pdf; throughput and bounce | rays before << 16; from and pixel x | y << 16; radiance and normal there; wo and gloss there
 LICHT_CONSTANT uint kRayTexels = 2u;     // origin and path; direction
 LICHT_CONSTANT uint kShadowTexels = 3u;  // origin and t_max; direction and path; what the light adds, and the number of rays before
 

@@ -167,6 +167,7 @@ LICHT_CONSTANT float kLightSlack = 1e-4F;
 LICHT_CONSTANT float kLightLeastReceived = 0.2F;
 LICHT_CONSTANT float kLightLeastEmitted = 0.1F;
 LICHT_CONSTANT float kLightSoftening = 0.4F;
+LICHT_CONSTANT float kLightWidening = 0.25F;
 
 // One column of an alias table (Walker 1974; Vose 1991): keep this entry when u < threshold, else take `alias`.
 struct AliasRecord {

@@ -8,9 +8,11 @@ layout(local_size_x = 64) in;
 layout(push_constant) uniform Push { uint count; uint per_place; uint seed; };
 struct Place {
     vec3 position;
-    float reserved0;
+    float alpha;
     vec3 normal;
-    float reserved1;
+    float coat;
+    vec3 wo;
+    float reserved;
 };
 struct Answer {
     uint light;
@@ -27,8 +29,9 @@ void main() {
     if (i >= count) return;
     Place place = places[i / per_place];
     vec4 u = random4(SampleAddress(uvec2(i & 1023u, i >> 10u), 0u, seed), 0u);
-    TreePick pick = pickInTree(place.position, place.normal, u.xy);
+    Receiver receiver = Receiver(place.position, place.normal, place.wo, place.alpha, place.coat);
+    TreePick pick = pickInTree(receiver, u.xy);
     bool picked = pick.light != kNoIndex;
-    float looked_up = picked ? pmfInTree(place.position, place.normal, trails[pick.light]) : 0.0;
+    float looked_up = picked ? pmfInTree(receiver, trails[pick.light]) : 0.0;
     answers[i] = Answer(pick.light, picked ? pick.pmf : 0.0, looked_up, 0u);
 }

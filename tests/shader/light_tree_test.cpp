@@ -61,9 +61,21 @@ std::vector<LightBound> randomLights(std::uint32_t seed, std::size_t count) {
     return lights;
 }
 
-double sumOfPmf(const LightTree& tree, const dvec3& position, const dvec3& normal) {
+// Every other one glossy. Not seen at grazing angles nor very smooth, so that fp32 keeps the digits of the
+// half vector's distance from the normal.
+LightReceiver randomReceiver(Dice& dice, const dvec3& half, bool glossy) {
+    LightReceiver receiver{dice.inBox(half), dice.direction()};
+    if (!glossy) return receiver;
+    do receiver.wo = dice.direction();
+    while (glm::dot(receiver.wo, receiver.normal) < 0.2);
+    receiver.alpha = 0.1 + 0.4 * dice.number();
+    receiver.coat = std::exp(4.0 * dice.number() - 2.0);
+    return receiver;
+}
+
+double sumOfPmf(const LightTree& tree, const LightReceiver& receiver) {
     double sum = 0.0;
-    for (const uint trail : tree.trails) sum += lightTreePmf(tree, position, normal, trail);
+    for (const uint trail : tree.trails) sum += lightTreePmf(tree, receiver, trail);
     return sum;
 }
 
@@ -115,11 +127,10 @@ TEST(LightTree, probabilitiesSumToOne) {
     double lost = 0.0;
     double unlit = 0.0;
     for (int i = 0; i < 300; ++i) {
-        const dvec3 position = dice.inBox({4, 2, 10});
-        const dvec3 normal = dice.direction();
+        const LightReceiver receiver = randomReceiver(dice, {4, 2, 10}, i % 2 == 1);
         double sum = 0.0;
         for (const uint trail : tree.trails) {
-            const double pmf = lightTreePmf(tree, position, normal, trail);
+            const double pmf = lightTreePmf(tree, receiver, trail);
             sum += pmf;
             unlit += pmf > 0.0 ? 0.0 : 1.0 / (300.0 * 300.0);
         }
@@ -140,21 +151,20 @@ TEST(LightTree, hidesNoLightThatReachesThePoint) {
     Dice dice(6);
     int reaching = 0;
     for (int i = 0; i < 400; ++i) {
-        const dvec3 position = dice.inBox({10, 4, 25});
-        const dvec3 normal = dice.direction();
+        const LightReceiver receiver = randomReceiver(dice, {10, 4, 25}, i % 2 == 1);
         for (std::size_t k = 0; k < lights.size(); ++k) {
             const LightBound& light = lights[k];
             // Any point of the emitter's box may shine.
             const dvec3 from =
                 light.low + dvec3(dice.number(), dice.number(), dice.number()) * (light.high - light.low);
-            const dvec3 w = glm::normalize(from - position);
+            const dvec3 w = glm::normalize(from - receiver.position);
             double cos_emitter = -glm::dot(w, light.axis);
             if (light.two_sided) cos_emitter = std::abs(cos_emitter);
             const double angle =
                 std::max(std::acos(std::clamp(cos_emitter, -1.0, 1.0)) - light.normals_angle, 0.0);
-            if (glm::dot(w, normal) <= 0.0 || angle >= light.emission_angle) continue;
+            if (glm::dot(w, receiver.normal) <= 0.0 || angle >= light.emission_angle) continue;
             ++reaching;
-            ASSERT_GT(lightTreePmf(tree, position, normal, tree.trails[k]), 0.0) << i << " " << k;
+            ASSERT_GT(lightTreePmf(tree, receiver, tree.trails[k]), 0.0) << i << " " << k;
         }
     }
     EXPECT_GT(reaching, 10'000);
@@ -173,16 +183,43 @@ TEST(LightTree, prefersWhatIsNearAndFacing) {
     }
     const LightTree tree = buildLightTree(row);
     const dvec3 under(20, 0, 0);  // below light 10, which faces it
-    EXPECT_GT(lightTreePmf(tree, under, dvec3(0, 1, 0), tree.trails[10]), 5.0 / 64.0);
-    EXPECT_EQ(lightTreePmf(tree, under, dvec3(0, 1, 0), tree.trails[11]), 0.0) << "shines away";
-    EXPECT_EQ(sumOfPmf(tree, under, dvec3(0, -1, 0)), 0.0) << "all lights lie below the horizon";
+    EXPECT_GT(lightTreePmf(tree, {under, dvec3(0, 1, 0)}, tree.trails[10]), 5.0 / 64.0);
+    EXPECT_EQ(lightTreePmf(tree, {under, dvec3(0, 1, 0)}, tree.trails[11]), 0.0) << "shines away";
+    EXPECT_EQ(sumOfPmf(tree, {under, dvec3(0, -1, 0)}), 0.0) << "all lights lie below the horizon";
+}
+
+// What a coat shows comes first.
+TEST(LightTree, prefersWhatACoatMirrors) {
+    // Two lamps over a floor, alike but for the side; the eye sees the left one mirrored.
+    std::vector<LightBound> pair(2);
+    for (std::size_t i = 0; i < 2; ++i) {
+        pair[i].low = pair[i].high = dvec3(i == 0 ? -3.0 : 3.0, 3.0, 0.0);
+        pair[i].axis = dvec3(0, -1, 0);
+        pair[i].emission_angle = 0.5 * std::numbers::pi;
+        pair[i].intensity = 1.0;
+    }
+    const LightTree tree = buildLightTree(pair);
+    LightReceiver floor{dvec3(0.0), dvec3(0, 1, 0), glm::normalize(dvec3(1, 1, 0)), 0.1, 1.0};
+    // The half vector is the normal for the left lamp and wo for the right one; pi D of both.
+    const double base = std::sqrt(0.5);
+    const double lobe = [&](double cos_h) {
+        const double a2 = 0.01;
+        const double below = a2 * cos_h * cos_h + 1.0 - cos_h * cos_h;
+        return a2 / (below * below);
+    }(base);
+    EXPECT_NEAR(lightTreePmf(tree, floor, tree.trails[0]), (base + 100.0) / (2.0 * base + 100.0 + lobe),
+                1e-4);
+    floor.coat = 0.0;
+    EXPECT_NEAR(lightTreePmf(tree, floor, tree.trails[0]), 0.5, 1e-9);
 }
 
 struct Place {
     vec3 position;
-    float reserved0 = 0.0F;
+    float alpha = 0.0F;
     vec3 normal;
-    float reserved1 = 0.0F;
+    float coat = 0.0F;
+    vec3 wo;
+    float reserved = 0.0F;
 };
 
 struct Answer {
@@ -207,10 +244,9 @@ TEST_P(OnDevice, picksWithTheProbabilitiesThatItSays) {
     Dice dice(8);
     std::vector<Place> places;
     for (int i = 0; i < 8; ++i) {
-        Place place;
-        place.position = vec3(dice.inBox({8, 3, 20}));
-        place.normal = vec3(dice.direction());
-        places.push_back(place);
+        const LightReceiver r = randomReceiver(dice, {8, 3, 20}, i % 2 == 1);
+        places.push_back({vec3(r.position), static_cast<float>(r.alpha), vec3(r.normal),
+                          static_cast<float>(r.coat), vec3(r.wo)});
     }
     gpu::Device& device = gpu::testDevice();
     const gpu::Buffer records =
@@ -226,11 +262,12 @@ TEST_P(OnDevice, picksWithTheProbabilitiesThatItSays) {
                            {{"LightTree", &records}, {"light_tree_texels", &texels}, {"Trails", &trails}});
     for (std::size_t p = 0; p < places.size(); ++p) {
         std::vector<double> expected;
-        const dvec3 position(places[p].position);
-        const dvec3 normal(places[p].normal);
+        const Place& place = places[p];
+        const LightReceiver receiver{dvec3(place.position), dvec3(place.normal), dvec3(place.wo),
+                                     static_cast<double>(place.alpha), static_cast<double>(place.coat)};
         double lit = 0.0;
         for (const uint trail : tree.trails) {
-            expected.push_back(kPerPlace * lightTreePmf(tree, position, normal, trail));
+            expected.push_back(kPerPlace * lightTreePmf(tree, receiver, trail));
             lit += expected.back();
         }
         expected.push_back(std::max(kPerPlace - lit, 0.0));
