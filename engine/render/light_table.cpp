@@ -1,7 +1,6 @@
 #include "licht/render/light_table.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -12,9 +11,14 @@
 #include "licht/colour/transfer.h"
 #include "licht/render/alias_table.h"
 #include "licht/render/light_tree.h"
+#include "licht/scene/emitter_shapes.h"
 
 namespace licht {
 namespace {
+
+uint kindOf(const LightRecord& light) {
+    return light.kind & kLightKindMask;
+}
 
 vec3 mean(const Texture& texture) {
     glm::dvec3 sum(0.0);
@@ -51,51 +55,27 @@ std::vector<double> emittedStrength(const Scene& scene) {
     return result;
 }
 
-// Corners in the order in which rays meet them (flat_geometry.cpp).
-std::array<vec3, 3> worldCorners(const Mesh& mesh, const mat4& transform, std::size_t triangle) {
-    uvec3 t = mesh.triangles[triangle];
-    if (mirrors(transform)) std::swap(t.y, t.z);
-    std::array<vec3, 3> corners;
-    for (int c = 0; c < 3; ++c)
-        corners[static_cast<std::size_t>(c)] = vec3(transform * vec4(mesh.positions[t[c]], 1.0F));
-    return corners;
-}
-
-// Two triangles that are a rectangle, as its corner and two edges that turn counter-clockwise: one light
-// instead of two, and its solid angle is sampled without the diagonal.
-struct Rectangle {
-    vec3 corner, first_edge, second_edge;
-};
-
-std::optional<Rectangle> rectangleOf(const std::array<vec3, 3>& a, const std::array<vec3, 3>& b) {
-    // Squareness and closure are asked to within a few roundings of the coordinates.
-    constexpr float kUnits = 8.0F * 0x1p-24F;
-    for (std::size_t k = 0; k < 3; ++k) {
-        const vec3& corner = a[k];
-        const vec3& next = a[(k + 1) % 3];
-        const vec3& last = a[(k + 2) % 3];
-        const vec3 e1 = next - corner;
-        const vec3 e2 = last - corner;
-        const vec3 scale = glm::abs(corner) + glm::abs(e1) + glm::abs(e2);
-        const float slack = kUnits * std::max({scale.x, scale.y, scale.z});
-        if (!(std::abs(glm::dot(e1, e2)) <= slack * (glm::length(e1) + glm::length(e2)))) continue;
-        // The other triangle: last, next and the corner across, in this sense of turning.
-        for (std::size_t j = 0; j < 3; ++j) {
-            const vec3 miss = glm::abs(b[(j + 2) % 3] - (corner + e1 + e2));
-            if (b[j] == last && b[(j + 1) % 3] == next && std::max({miss.x, miss.y, miss.z}) <= slack)
-                return Rectangle{corner, e1, e2};
-        }
-    }
-    return std::nullopt;
-}
-
 void addShape(LightTable& table, std::vector<double>& weights, LightRecord light, double strength_of_area) {
     const double area = static_cast<double>(glm::length(glm::cross(light.direction, light.intensity)));
     table.lights.push_back(light);
     weights.push_back(std::isfinite(area) ? area * strength_of_area : 0.0);
 }
 
-void addTriangles(const Scene& scene, LightTable& table, std::vector<double>& weights) {
+// A hit on any face finds the same light; nothing picks it a second time. Of what double-sided ones send
+// inwards nothing gets out.
+void addSphere(LightTable& table, std::vector<double>& weights, LightRecord light, const Ball& ball,
+               std::size_t faces) {
+    light.kind = kLightSphere;
+    light.position = ball.centre;
+    light.range = ball.radius;
+    const double weight = ball.area * strength(light.emission);
+    for (std::size_t k = 0; k < faces; ++k) {
+        table.lights.push_back(light);
+        weights.push_back(k == 0 && std::isfinite(weight) ? weight : 0.0);
+    }
+}
+
+void addShapes(const Scene& scene, bool spheres, LightTable& table, std::vector<double>& weights) {
     const std::vector<double> strengths = emittedStrength(scene);
     for (uint i = 0; i < scene.instances.size(); ++i) {
         const Instance& instance = scene.instances[i];
@@ -106,10 +86,14 @@ void addTriangles(const Scene& scene, LightTable& table, std::vector<double>& we
         LightRecord light{};
         light.emission = material.emission;
         light.instance = i;
+        if (const std::optional<Ball> ball = spheres ? roundEmitter(scene, instance) : std::nullopt) {
+            addSphere(table, weights, light, *ball, mesh.triangles.size());
+            continue;
+        }
         const uint flags = (material.double_sided ? kLightDoubleSided : 0U) |
                            (material.emissive_texture.present() ? kLightTextured : 0U);
         for (uint k = 0; k < mesh.triangles.size(); ++k) {
-            const std::array<vec3, 3> p = worldCorners(mesh, instance.world_from_object, k);
+            const Corners p = worldCorners(mesh, instance.world_from_object, k);
             light.primitive = k;
             if (k + 1 < mesh.triangles.size() && !material.emissive_texture.present()) {
                 if (const std::optional<Rectangle> r =
@@ -134,8 +118,8 @@ void addTriangles(const Scene& scene, LightTable& table, std::vector<double>& we
     }
 }
 
-// What stands beside the first half of a rectangle is the same light.
-void copyToSecondHalves(LightTable& table) {
+// What stands beside the first half of a rectangle, or the first face of a sphere, is the same light.
+void copyToOtherParts(LightTable& table) {
     for (std::size_t i = 1; i < table.lights.size(); ++i) {
         const LightRecord& first = table.lights[i - 1];
         LightRecord& second = table.lights[i];
@@ -149,10 +133,19 @@ void copyToSecondHalves(LightTable& table) {
 LightBound boundOf(const LightRecord& light, double weight) {
     LightBound bound;
     const glm::dvec3 at(light.position);
+    if (kindOf(light) == kLightSphere) {
+        bound.low = at - static_cast<double>(light.range);
+        bound.high = at + static_cast<double>(light.range);
+        bound.axis = glm::dvec3(0, 0, 1);
+        bound.normals_angle = std::numbers::pi;
+        bound.emission_angle = 0.5 * std::numbers::pi;
+        bound.intensity = weight;
+        return bound;
+    }
     if (isShape(light)) {
         const glm::dvec3 e1(light.direction);
         const glm::dvec3 e2(light.intensity);
-        const bool rectangle = (light.kind & kLightKindMask) == kLightRectangle;
+        const bool rectangle = kindOf(light) == kLightRectangle;
         bound.low = glm::min(at, glm::min(at + e1, at + e2));
         bound.high = glm::max(at, glm::max(at + e1, at + e2));
         if (rectangle) {
@@ -168,7 +161,7 @@ LightBound boundOf(const LightRecord& light, double weight) {
     bound.low = bound.high = at;
     bound.intensity = strength(light.intensity);
     bound.axis = glm::dvec3(light.direction);
-    if ((light.kind & kLightKindMask) == kLightPoint) {
+    if (kindOf(light) == kLightPoint) {
         bound.intensity *= 4.0;  // a sphere has four times the area that it shows
         bound.axis = glm::dvec3(0, 0, 1);
         bound.normals_angle = std::numbers::pi;
@@ -243,8 +236,8 @@ double flux(const PunctualLight& light, double radius) {
 }  // namespace
 
 bool isShape(const LightRecord& light) {
-    const uint kind = light.kind & kLightKindMask;
-    return kind == kLightTriangle || kind == kLightRectangle;
+    const uint kind = kindOf(light);
+    return kind == kLightTriangle || kind == kLightRectangle || kind == kLightSphere;
 }
 
 LightTable buildLightTable(const Scene& scene, const Effects& effects, bool sample_surfaces_and_sky,
@@ -255,7 +248,8 @@ LightTable buildLightTable(const Scene& scene, const Effects& effects, bool samp
     std::vector<std::size_t> kind_ends{0};
     const auto endKind = [&] { kind_ends.push_back(weights.size()); };
 
-    if (effects.has(kEffectLightTriangles) && sample_surfaces_and_sky) addTriangles(scene, table, weights);
+    if (effects.has(kEffectLightTriangles) && sample_surfaces_and_sky)
+        addShapes(scene, effects.has(kEffectLightSpheres), table, weights);
     const std::size_t shapes = weights.size();
     const bool punctual = effects.has(kEffectPunctualLights);
     const double radius = std::max(static_cast<double>(sceneBounds(scene).radius()), 1.0);
@@ -307,7 +301,7 @@ LightTable buildLightTable(const Scene& scene, const Effects& effects, bool samp
         const std::size_t column = table.tree_lights == 0 ? i : in_tree ? 0 : i - table.tree_lights + 1;
         table.lights[i].pmf = in_tree && !(weights[i] > 0.0) ? 0.0F : table.alias[column].pmf;
     }
-    copyToSecondHalves(table);
+    copyToOtherParts(table);
     return table;
 }
 

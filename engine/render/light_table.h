@@ -10,8 +10,8 @@ namespace licht {
 
 /// Everything that next event estimation can pick.
 struct LightTable {
-    std::vector<LightRecord>
-        lights;  ///< triangles (two for a rectangle), points and spots; then directional; then the sky
+    std::vector<LightRecord> lights;  ///< triangles (two for a rectangle, all for a round mesh), points and
+                                      ///< spots; then directional; then the sky
     std::vector<AliasRecord>
         alias;  ///< over the lights or, with a tree, over the tree and each light outside
     std::vector<LightChildRecord> tree;  ///< empty: none
@@ -20,7 +20,7 @@ struct LightTable {
     uint environment_light = kNoIndex;
 };
 
-/// A triangle or rectangle that emits.
+/// A triangle, rectangle or round mesh that emits.
 bool isShape(const LightRecord& light);
 
 /// The kinds of light (triangles, punctual, environment; or the tree, directional, environment) share the

@@ -21,6 +21,8 @@ namespace {
 using gpu::Access;
 
 constexpr std::uint32_t kTile = 8;
+// The rays before a shadow ray share a word with its target: the rasteriser's, and two a bounce.
+static_assert(1 + 2 * kMostQueueBounces < 1U << kShadowTargetShift);
 constexpr VkBufferUsageFlags kFetched =
     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
 

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "licht/colour/transfer.h"
+#include "licht/scene/emitter_shapes.h"
 #include "licht/scene/instancing.h"
 
 namespace licht {
@@ -31,6 +32,8 @@ const std::array<EffectInfo, kEffectCount>& effectTable() {
         {kEffectIridescence, "iridescence", "thin films colour what reflects", "", "path"},
         {kEffectInstances, "instances", "meshes are stored once and placed often", "instance_transforms",
          "gbuffer,path"},
+        {kEffectLightSpheres, "lightSpheres", "round meshes that shine are sampled as one light each", "",
+         "path"},
     }};
     return kTable;
 }
@@ -260,6 +263,17 @@ private:
         if (emitting > 0.0 && emitting < 0.5 * all) {
             call(kEffectLightTriangles, fmt::format("mesh '{}' emits, and {:.3g} % of all surface does",
                                                     first, 100.0 * emitting / all));
+            lookForRoundEmitters();
+        }
+    }
+
+    void lookForRoundEmitters() {
+        for (const Instance& instance : scene_.instances) {
+            if (roundEmitter(scene_, instance)) {
+                call(kEffectLightSpheres, fmt::format("mesh '{}' shines and is nearly a sphere",
+                                                      scene_.meshes[instance.mesh].name));
+                return;
+            }
         }
     }
 

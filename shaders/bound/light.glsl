@@ -1,5 +1,5 @@
-// The lights: emissive triangles and rectangles, punctual lights and the environment. Three verbs: sample a light as seen from a point, its density
-// for a hit that scattering found, and what it sends.
+// The lights: emissive triangles, rectangles and round meshes, punctual lights and the environment. Three verbs: sample a light as seen from a point,
+// its density for a hit that scattering found, and what it sends.
 #ifndef LICHT_BOUND_LIGHT_GLSL
 #define LICHT_BOUND_LIGHT_GLSL
 
@@ -37,9 +37,11 @@ struct LightSample {
     float pdf;        // solid angle, with the probability of the pick; of punctual lights the pick alone
     bool delta;       // scattering cannot find it
     bool valid;
+    uint target;      // see RayQuery
+    float t_enough;
 };
 
-const LightSample kNoLight = LightSample(vec3(0.0), 0.0, vec3(0.0), 0.0, false, false);
+const LightSample kNoLight = LightSample(vec3(0.0), 0.0, vec3(0.0), 0.0, false, false, kNoIndex, 0.0);
 
 // Who asks for lights: the choice among them depends on where the surface is, whither it faces and what it reflects where. Packed, so that a path
 // can carry it; picking and looking up both read it from here.
@@ -115,10 +117,21 @@ float pdfOnShape(LightRecord light, float omega, vec3 d, float d2) {
     return d2 * sqrt(d2) / projected;
 }
 
+// A round mesh fills part of the cone of directions to the sphere around it. All of the cone is sampled, alike, and a ray that meets something else
+// first or passes by the mesh brings nothing. Inside the sphere it is not sampled: more than half of all directions may end at it, and scattering finds
+// them. The square of the sine of the cone's half angle; 1 or more: inside. to_centre2: squared distance of the centre.
+float sine2OfSphere(LightRecord light, float to_centre2) { return light.range * light.range / to_centre2; }
+
+float pdfOnSphere(float sine2) { return sine2 < 1.0 ? 1.0 / solidAngleCone(sine2) : 0.0; }
+
 // Density, by solid angle, with which light sampling at `asker` would have found the emitting point `s`; 0: never.
 float pdfOfSurface(Surface s, LightAsker asker) {
     if (!kLightTriangles || s.light == kNoIndex) return 0.0;
     LightRecord light = lightAt(s.light);
+    if (kLightSpheres && kindOf(light) == kLightSphere) {
+        vec3 centre = light.position - asker.position;
+        return pmfOfLight(light, s.light, asker) * pdfOnSphere(sine2OfSphere(light, dot(centre, centre)));
+    }
     vec3 d = s.position - asker.position;
     return pmfOfLight(light, s.light, asker) * pdfOnShape(light, sampledSolidAngle(light, asker.position), d, dot(d, d));
 }
@@ -165,15 +178,36 @@ LightSample sampleShape(LightRecord light, float pmf, Surface from, vec2 u) {
     vec3 extent = abs(light.position) + abs(light.direction) + abs(light.intensity);
     float error_bound = kPositionUnits * (dot(abs(normal), extent) + largest(max(abs(light.direction), abs(light.intensity))));
     vec3 target = offsetOrigin(from.position + d, normal, error_bound, -d);
-    return LightSample(target - offsetOrigin(from, d), 1.0, radiance, pdf, false, valid);
+    return LightSample(target - offsetOrigin(from, d), 1.0, radiance, pdf, false, valid, kNoIndex, 0.0);
+}
+
+// The mesh is closed and faces outwards (emitter_shapes.cpp), so what a ray meets first of it is a front.
+LightSample sampleSphere(LightRecord light, float pmf, Surface from, vec2 u) {
+    vec3 centre = light.position - from.position;
+    float d2 = dot(centre, centre);
+    float sine2 = sine2OfSphere(light, d2);
+    if (!(sine2 < 1.0)) return kNoLight;
+    float inverse = inversesqrt(d2), distance = d2 * inverse;
+    Frame to_centre = frameFromNormal(centre * inverse);
+    vec3 w = sampleCone(sine2, u);
+    // The ray goes through the middle of the chord, seen from the centre, so that small and far spheres are not missed by rounding. The mesh is within a
+    // radius of that.
+    vec3 middle = centre + worldFromLocal(to_centre, distance * vec3(w.z * w.xy, -dot(w.xy, w.xy)));
+    float along = distance * w.z;
+    float end = along + light.range;
+    vec3 direction = middle + (from.position - offsetOrigin(from, middle));
+    float pdf = pmf * pdfOnSphere(sine2);
+    bool valid = along > 0.0 && pdf > 0.0 && !isinf(pdf);
+    return LightSample(direction * (end / along), 1.0, light.emission, pdf, false, valid, light.instance, (along - light.range) / end);
 }
 
 // A directional light sends E over the cone of directions that it fills: radiance E / (pi sin^2), so that a surface that faces it gets E.
 LightSample sampleDirectional(LightRecord light, float pmf, vec2 u) {
     const float kInfinity = uintBitsToFloat(0x7f800000u);
-    if (light.cone_scale <= 0.0) return LightSample(-light.direction, kInfinity, light.intensity, pmf, true, true);
+    if (light.cone_scale <= 0.0) return LightSample(-light.direction, kInfinity, light.intensity, pmf, true, true, kNoIndex, 0.0);
     vec3 direction = worldFromLocal(frameFromNormal(-light.direction), sampleCone(light.cone_scale, u));
-    return LightSample(direction, kInfinity, light.intensity / (kPi * light.cone_scale), pmf / solidAngleCone(light.cone_scale), true, true);
+    return LightSample(direction, kInfinity, light.intensity / (kPi * light.cone_scale), pmf / solidAngleCone(light.cone_scale), true, true, kNoIndex,
+                       0.0);
 }
 
 // KHR_lights_punctual: inverse square, an optional range window, and a spot's cone.
@@ -192,7 +226,7 @@ LightSample samplePunctualLight(LightRecord light, float pmf, Surface from) {
         irradiance *= cone * cone;
     }
     if (largest(irradiance) <= 0.0) return kNoLight;
-    return LightSample(light.position - offsetOrigin(from, direction), 1.0, irradiance, pmf, true, true);
+    return LightSample(light.position - offsetOrigin(from, direction), 1.0, irradiance, pmf, true, true, kNoIndex, 0.0);
 }
 
 LightSample sampleLight(Surface from, LightAsker asker, SampleAddress address, uint dimension) {
@@ -204,9 +238,11 @@ LightSample sampleLight(Surface from, LightAsker asker, SampleAddress address, u
     float pmf = kLights == kLightsTree ? light.pmf * pick.pmf : light.pmf;
     uint kind = kindOf(light);
     if (kLightTriangles && (kind == kLightTriangle || kind == kLightRectangle)) return sampleShape(light, pmf, from, u.xy);
+    if (kLightSpheres && kind == kLightSphere) return sampleSphere(light, pmf, from, u.xy);
     if (kEnvironment && kind == kLightEnvironment) {
         EnvironmentSample e = sampleEnvironment(sampleBits4(address, dimension + kDimensionEnvironment));
-        return LightSample(e.direction, uintBitsToFloat(0x7f800000u), environmentRadiance(e.direction), pmf * e.pdf, false, e.pdf > 0.0);
+        return LightSample(e.direction, uintBitsToFloat(0x7f800000u), environmentRadiance(e.direction), pmf * e.pdf, false, e.pdf > 0.0, kNoIndex,
+                           0.0);
     }
     if (kPunctualLights && kind == kLightDirectional) return sampleDirectional(light, pmf, u.xy);
     if (kPunctualLights) return samplePunctualLight(light, pmf, from);

@@ -38,7 +38,7 @@ vec3 directLight(Surface s, LightAsker asker, vec3 wo_local, uint dimension, out
     vec3 wi_local = localFromWorld(s.frame, wi);
     vec3 f = bsdfEvaluate(s.bsdf, wo_local, wi_local);
     if (largest(f) <= 0.0) return vec3(0.0);
-    ray = RayQuery(offsetOrigin(s, wi), light.direction, light.t_max, true);
+    ray = RayQuery(offsetOrigin(s, wi), light.direction, light.t_max, true, light.target, light.t_enough);
     float weight = weightOfLightSample(light, bsdfPdf(s.bsdf, wo_local, wi_local));
     return f * light.radiance * (wi_local.z * weight / light.pdf);
 }
@@ -124,7 +124,7 @@ vec3 extendPath(inout Path p, out RayQuery light_ray, out RayQuery path_ray) {
 
     // Follow the ray.
     if (p.alive) {
-        path_ray = RayQuery(offsetOrigin(s, wi), wi, uintBitsToFloat(0x7f800000u), true);
+        path_ray = RayQuery(offsetOrigin(s, wi), wi, uintBitsToFloat(0x7f800000u), true, kNoIndex, 0.0);
         p.wo = -wi;
         p.from = asker;
         p.scatter_pdf = scattered.pdf;
@@ -140,7 +140,7 @@ void extendAndTrace(inout Path p, inout PathCounts counts) {
     vec3 direct = extendPath(p, light_ray, path_ray);
     if (light_ray.wanted) {
         ++counts.shadow_rays;
-        if (!occluded(light_ray.origin, light_ray.direction, light_ray.t_max)) p.radiance += foundLight(order, direct);
+        if (lightArrives(light_ray)) p.radiance += foundLight(order, direct);
     }
     if (path_ray.wanted) {
         ++counts.bounce_rays;

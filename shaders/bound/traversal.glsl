@@ -15,6 +15,7 @@ layout(constant_id = 64) const bool kBvhInStorage = false;
 layout(constant_id = 65) const uint kBvhStackSize = 64u;
 // kConstantRaysPerThread; more than one: lanes are refilled (ray_list.glsl), as suits devices that run them in lockstep.
 layout(constant_id = 81) const uint kRaysPerThread = 1u;
+layout(constant_id = 13) const bool kLightSpheres = false;
 const bool kRefilled = kRaysPerThread > 1u;
 
 // Positions from here on are instances.
@@ -33,6 +34,10 @@ layout(binding = 46, std430) readonly buffer bvh_triangles_storage { vec4 bvh_tr
 // then leaves them without a word. A round is one node and one triangle, so only huge stacks of overlapping triangles get there. Entry shaders
 // report it; a picture in which it happened is wrong.
 bool bvh_walk_cut = false;
+
+// Where any hit is asked for, one nearer than this ends the walk; of those behind it the nearest is wanted. Read only where round meshes are sampled as
+// one light.
+float bvh_any_before = uintBitsToFloat(0x7f800000u);
 
 // The instance whose object space the ray is in; kNoIndex: the world, and baked triangles.
 uint bvh_instance = kNoIndex;
@@ -280,7 +285,7 @@ uint stepTriangle(inout Walk w, bool any_hit) {
     bool met = testTriangle(w.ray, v0.xyz, bvhTriangleTexel(texel + 1u).xyz, bvhTriangleTexel(texel + 2u).xyz, hit);
     bool is_instance = kInstances && position >= kFirstInstancePosition;
     if (met && !is_instance) offerHit(position, v0.w, hit, w.ray, w.t_min, w.best, w.best_triangle);
-    bool enough = any_hit && w.best.position != kNoIndex;
+    bool enough = any_hit && w.best.position != kNoIndex && (!kLightSpheres || w.best.t < bvh_any_before * w.ray.distance_scale);
     w.triangles = enough ? 0u : w.triangles;
     w.more_triangles = enough ? 0u : w.more_triangles;
     w.current = enough ? kBvhNone : w.current;
@@ -345,8 +350,8 @@ void walkOn(inout Walk w, bool any_hit) {
     if (kInstances) stepInstance(w, instance_met);
 }
 
-// The nearest hit in [max(t_min, 0), t_max), or with any_hit the first one found. Equal distances go to the baked triangles, then to the lower
-// instance, then to the lower triangle index. A ray that is not finite or has no direction hits nothing.
+// The nearest hit in [max(t_min, 0), t_max), or with any_hit the first one found (see bvh_any_before). Equal distances go to the baked triangles, then to
+// the lower instance, then to the lower triangle index. A ray that is not finite or has no direction hits nothing.
 TraceHit traceRay(vec3 origin, vec3 direction, float t_min, float t_max, bool any_hit) {
     vec3 scene_lower, scene_upper;
     treeBounds(0u, scene_lower, scene_upper);

@@ -80,13 +80,20 @@ struct RayQuery {
     vec3 direction;
     float t_max;
     bool wanted;
+    uint target;     // of a ray to a light: the instance that is to be met first; kNoIndex: nothing is to be met
+    float t_enough;  // what is met before is surely not the target
 };
 
-const RayQuery kNoRayQuery = RayQuery(vec3(0.0), vec3(0.0), 0.0, false);
+const RayQuery kNoRayQuery = RayQuery(vec3(0.0), vec3(0.0), 0.0, false, kNoIndex, 0.0);
 
 Hit traceNearest(vec3 origin, vec3 direction) { return trace(origin, direction, uintBitsToFloat(0x7f800000u), false); }
 
-// Is anything between origin and origin + t_max * direction?
-bool occluded(vec3 origin, vec3 direction, float t_max) { return trace(origin, direction, t_max, true).instance != kNoIndex; }
+void seekTarget(uint target, float t_enough) { bvh_any_before = target == kNoIndex ? uintBitsToFloat(0x7f800000u) : t_enough; }
+
+// Does a ray to a light get there?
+bool lightArrives(RayQuery ray) {
+    seekTarget(ray.target, ray.t_enough);
+    return trace(ray.origin, ray.direction, ray.t_max, true).instance == ray.target;
+}
 
 #endif

@@ -25,9 +25,10 @@ void main() {
     }
     uint at = kShadowTexels * appendTo(push.bounce, kCountShadows, light_ray.wanted);
     if (light_ray.wanted) {
-        queue_shadows[at] = uvec4(floatBitsToUint(light_ray.origin), floatBitsToUint(light_ray.t_max));
+        float end = kLightSpheres && light_ray.target != kNoIndex ? light_ray.t_enough : light_ray.t_max;
+        queue_shadows[at] = uvec4(floatBitsToUint(light_ray.origin), floatBitsToUint(end));
         queue_shadows[at + 1u] = uvec4(floatBitsToUint(light_ray.direction), path);
-        queue_shadows[at + 2u] = uvec4(floatBitsToUint(direct), rays_before);
+        queue_shadows[at + 2u] = uvec4(floatBitsToUint(direct), rays_before | ((light_ray.target + 1u) << kShadowTargetShift));
     }
     at = kRayTexels * appendTo(push.bounce, kCountRays, path_ray.wanted);
     if (path_ray.wanted) {

@@ -15,7 +15,8 @@ struct QueuePush {
 // Records of whole texels, because they are read as such.
 LICHT_CONSTANT uint kPathTexels = 6u;    // hit; wo and scatter_pdf; throughput and bounce | rays before << 16; from and pixel x | y << 16; radiance and normal there; wo and gloss there
 LICHT_CONSTANT uint kRayTexels = 2u;     // origin and path; direction
-LICHT_CONSTANT uint kShadowTexels = 3u;  // origin and t_max; direction and path; what the light adds, and the number of rays before
+LICHT_CONSTANT uint kShadowTexels = 3u;  // origin and t_max; direction and path; what the light adds, and rays before | (target + 1) << kShadowTargetShift
+LICHT_CONSTANT uint kShadowTargetShift = 8u;  // with a target, t_max is 1 and its place holds t_enough
 
 // Four counts a bounce: paths to extend, rays to trace, shadow rays to trace.
 LICHT_CONSTANT uint kQueueCounts = 4u;

@@ -119,20 +119,21 @@ LICHT_CONSTANT uint kLightSpot = 2u;
 LICHT_CONSTANT uint kLightDirectional = 3u;
 LICHT_CONSTANT uint kLightEnvironment = 4u;
 LICHT_CONSTANT uint kLightRectangle = 5u;
+LICHT_CONSTANT uint kLightSphere = 6u;           // a round mesh, by the sphere around it
 LICHT_CONSTANT uint kLightKindMask = 0xffu;
 LICHT_CONSTANT uint kLightDoubleSided = 0x100u;  // flags beside the kind
 LICHT_CONSTANT uint kLightTextured = 0x200u;
 
 struct LightRecord {
-    vec3 position;     // punctual: world; triangle, rectangle: the first corner
+    vec3 position;     // punctual: world; triangle, rectangle: the first corner; sphere: the centre
     uint kind;         // and flags
     vec3 direction;    // the way the light travels, unit; triangle, rectangle: the edge from the first corner to the second, metres
-    float range;       // metres; 0: unlimited
+    float range;       // metres; 0: unlimited; sphere: its radius
     vec3 intensity;    // cd, or lux when directional; triangle, rectangle: the edge from the first corner to the last
     float cone_scale;  // spot: smooth factor = clamp(cos * scale + offset, 0, 1)^2; directional: sine squared of the half angle it fills
-    vec3 emission;     // triangle, rectangle: cd/m^2, before a texture
+    vec3 emission;     // triangle, rectangle, sphere: cd/m^2, before a texture
     float cone_offset;
-    uint instance;     // triangle: its hit record
+    uint instance;     // triangle: its hit record; sphere: the instance, and primitive 0
     uint primitive;
     float pmf;         // probability that the table picks this light, or the tree that it is in
     uint trail;        // in the tree: which child at which level, kLightTrailBits each
