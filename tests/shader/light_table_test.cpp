@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <numbers>
 
 #include "licht/render/light_tree.h"
 #include "licht/scene/effects.h"
@@ -38,6 +39,29 @@ Scene sceneOfQuads(int count) {
         add(scene, {{0, 0, 0}, {2, 0, 0}, {2, 0, 1}, {0, 0, 1}}, {{0, 1, 2}, {0, 2, 3}}, 1,
             glm::translate(mat4(1.0F), vec3(3.0F * static_cast<float>(i), 0, 0)));
     return scene;
+}
+
+// Six meridians, cut by three circles of latitude.
+Mesh roundMesh() {
+    Mesh mesh;
+    const auto at = [&](int column, int row) {
+        const double turn = std::numbers::pi / 3.0 * column;
+        const double height = 0.25 * std::numbers::pi * row;
+        const double r = row == 0 || row == 4 ? 0.0 : std::sin(height);
+        mesh.positions.emplace_back(r * std::cos(turn), -std::cos(height), r * std::sin(turn));
+    };
+    for (int column = 0; column < 6; ++column) {
+        for (int row = 0; row < 4; ++row) {
+            const auto first = static_cast<uint>(mesh.positions.size());
+            at(column, row);
+            at(column, row + 1);
+            at((column + 1) % 6, row + 1);
+            at((column + 1) % 6, row);
+            if (row < 3) mesh.triangles.emplace_back(first, first + 1, first + 2);
+            if (row > 0) mesh.triangles.emplace_back(first, first + 2, first + 3);
+        }
+    }
+    return mesh;
 }
 
 LightTable tableOf(const Scene& scene, LightChoice choice) {
@@ -129,6 +153,55 @@ TEST(LightTable, WhatGivesNoLightIsNeverPicked) {
     Scene dark = sceneOfQuads(2);
     dark.materials[1] = emitter(0.0F);
     EXPECT_TRUE(tableOf(dark, LightChoice::tree).lights.empty());
+}
+
+// A round lamp is one light, whichever face is hit; it weighs what its faces weigh together, and a second
+// side that only its inside sees counts for nothing.
+TEST(LightTable, ARoundMeshIsOneLight) {
+    Scene scene = sceneOfQuads(2);
+    scene.materials.push_back(emitter(3.0F));
+    scene.materials[2].double_sided = true;
+    constexpr std::size_t kFaces = 36;
+    for (const uint material : {1U, 2U}) {
+        Mesh lamp = roundMesh();
+        add(scene, lamp.positions, lamp.triangles, material,
+            glm::translate(mat4(1.0F), vec3(0, 9, material)));
+    }
+    Effects effects = detectEffects(scene);
+    ASSERT_TRUE(effects.has(kEffectLightSpheres));
+    const auto tableOfChoice = [&](LightChoice choice) {
+        return buildLightTable(scene, effects, true, choice);
+    };
+    for (const LightChoice choice : {LightChoice::tree, LightChoice::power, LightChoice::uniform}) {
+        const LightTable table = tableOfChoice(choice);
+        ASSERT_EQ(table.lights.size(), 4 + 2 * kFaces);
+        EXPECT_NEAR(sumOfPmf(table), 1.0, 1e-6);
+        for (const std::size_t first : {std::size_t{4}, 4 + kFaces}) {
+            const LightRecord& lamp = table.lights[first];
+            EXPECT_EQ(kindOf(lamp), kLightSphere);
+            EXPECT_FLOAT_EQ(lamp.position.y, 9.0F);
+            EXPECT_NEAR(lamp.range, 1.0F, 1e-5F);
+            EXPECT_GT(lamp.pmf, 0.0F);
+            for (std::size_t k = 1; k < kFaces; ++k)
+                EXPECT_EQ(std::memcmp(&table.lights[first + k], &lamp, sizeof(LightRecord)), 0);
+        }
+        EXPECT_EQ(table.lights[4].pmf, table.lights[4 + kFaces].pmf);
+    }
+    std::size_t leaves = 0;
+    for (const LightChildRecord& child : tableOfChoice(LightChoice::tree).tree)
+        leaves += child.intensity > 0.0F && (child.next & kLightLeaf) != 0 ? 1 : 0;
+    EXPECT_EQ(leaves, 4U);
+    const LightTable power = tableOfChoice(LightChoice::power);
+    effects.on[kEffectLightSpheres] = false;
+    const LightTable faces = tableOfChoice(LightChoice::power);
+    double sum = 0.0;
+    for (std::size_t k = 0; k < kFaces; ++k) {
+        EXPECT_EQ(kindOf(faces.lights[4 + k]), kLightTriangle);
+        sum += static_cast<double>(faces.lights[4 + k].pmf);
+    }
+    // The second lamp counts twice there: r = a / (2 q + 2 a) against a / (2 q + 3 a).
+    const auto r = static_cast<double>(power.lights[4].pmf);
+    EXPECT_NEAR(sum, r / (1.0 + r), 1e-6);
 }
 
 TEST(LightTable, UniformMeansAlikeAndPowerMeansByFlux) {
