@@ -312,10 +312,10 @@ void GpuScene::uploadLights(const Scene& scene, const Effects& effects, const In
     tree_lights_ = table.tree_lights;
     lights_by_ = tree_lights_ > 0 ? LightChoice::tree : LightChoice::power;
     if (!table.tree.empty()) light_tree_ = upload("light_tree", table.tree, kFetched);
-    if (light_slots_ > 0) {
-        lights_ = upload("lights", table.lights, kFetched);
-        light_alias_ = upload("light_alias", table.alias, kFetched);
-    }
+    first_sun_ = table.first_sun;
+    suns_ = table.suns;
+    if (!table.lights.empty()) lights_ = upload("lights", table.lights, kFetched);
+    if (light_slots_ > 0) light_alias_ = upload("light_alias", table.alias, kFetched);
     environment_light_ = table.environment_light;
     const bool present = effects.has(kEffectEnvironment) && scene.environment;
     has_sky_ = scene.environment ? 1U : 0U;
@@ -375,6 +375,8 @@ void GpuScene::describe(FrameRecord& frame) const {
     frame.light_slots = light_slots_;
     frame.tree_lights = tree_lights_;
     frame.environment_light = environment_light_;
+    frame.first_sun = first_sun_;
+    frame.suns = suns_;
     frame.environment_size = environment_size_;
     frame.environment_peak = environment_peak_;
     frame.extra_uv_sets = extra_uv_sets_;

@@ -90,6 +90,8 @@ private:
     uint light_slots_ = 0;
     uint tree_lights_ = 0;
     uint environment_light_ = kNoIndex;
+    uint first_sun_ = 0;
+    uint suns_ = 0;
     uint extra_uv_sets_ = 0;
     uint has_sky_ = 0;
     uint baked_instances_ = kNoIndex;

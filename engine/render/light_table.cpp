@@ -203,7 +203,7 @@ LightRecord punctualRecord(const PunctualLight& light) {
     record.kind = light.kind == PunctualLight::Kind::point  ? kLightPoint
                   : light.kind == PunctualLight::Kind::spot ? kLightSpot
                                                             : kLightDirectional;
-    if (light.kind == PunctualLight::Kind::directional) {
+    if (fillsAngle(light)) {
         const float sine = std::sin(0.5F * light.angular_diameter);
         record.cone_scale = sine * sine;
     }
@@ -253,21 +253,25 @@ LightTable buildLightTable(const Scene& scene, const Effects& effects, bool samp
     const std::size_t shapes = weights.size();
     const bool punctual = effects.has(kEffectPunctualLights);
     const double radius = std::max(static_cast<double>(sceneBounds(scene).radius()), 1.0);
-    const auto addPunctual = [&](bool directional) {
+    const auto addPunctual = [&](bool directional, bool disc) {
         for (const PunctualLight& light : scene.lights) {
-            if (!punctual || (light.kind == PunctualLight::Kind::directional) != directional) continue;
+            if (!punctual || (light.kind == PunctualLight::Kind::directional) != directional ||
+                fillsAngle(light) != disc)
+                continue;
             table.lights.push_back(punctualRecord(light));
-            weights.push_back(flux(light, radius));
+            weights.push_back(disc && !sample_surfaces_and_sky ? 0.0 : flux(light, radius));
         }
     };
-    addPunctual(false);
+    addPunctual(false, false);
     if (choice == LightChoice::tree && growTree(table, weights)) {
         endKind();
-        addPunctual(true);
     } else {
         kind_ends.push_back(shapes);
-        addPunctual(true);
     }
+    addPunctual(true, false);
+    table.first_sun = static_cast<uint>(table.lights.size());
+    addPunctual(true, true);
+    table.suns = static_cast<uint>(table.lights.size()) - table.first_sun;
     endKind();
     if (effects.has(kEffectEnvironment) && sample_surfaces_and_sky && scene.environment) {
         table.environment_light = static_cast<uint>(table.lights.size());
@@ -294,6 +298,9 @@ LightTable buildLightTable(const Scene& scene, const Effects& effects, bool samp
     if (table.alias.empty()) {
         LightTable none;
         none.first_light.assign(scene.instances.size(), kNoIndex);
+        const auto first = table.lights.begin() + table.first_sun;
+        none.lights.assign(first, first + table.suns);
+        none.suns = table.suns;
         return none;
     }
     for (std::size_t i = 0; i < table.lights.size(); ++i) {

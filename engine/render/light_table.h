@@ -11,13 +11,15 @@ namespace licht {
 /// Everything that next event estimation can pick.
 struct LightTable {
     std::vector<LightRecord> lights;  ///< triangles (two for a rectangle, all for a round mesh), points and
-                                      ///< spots; then directional; then the sky
+                                      ///< spots; then directional, those that fill an angle last; then the sky
     std::vector<AliasRecord>
         alias;  ///< over the lights or, with a tree, over the tree and each light outside
     std::vector<LightChildRecord> tree;  ///< empty: none
     uint tree_lights = 0;                ///< the first so many lights are picked by the tree
     std::vector<uint> first_light;       ///< per scene instance: light of its primitive 0, or kNoIndex
     uint environment_light = kNoIndex;
+    uint first_sun = 0;  ///< directional lights that fill an angle
+    uint suns = 0;
 };
 
 /// A triangle, rectangle or round mesh that emits.
@@ -26,7 +28,7 @@ bool isShape(const LightRecord& light);
 /// The kinds of light (triangles, punctual, environment; or the tree, directional, environment) share the
 /// picks equally, because their powers say nothing of how much of each reaches a given place; within a kind
 /// the share is by the choice. A tree takes at least two lights that are somewhere; with fewer the choice is
-/// by power. `sample_surfaces_and_sky` false: only lights that scattering cannot find.
+/// by power. `sample_surfaces_and_sky` false: only lights that scattering cannot find are picked.
 LightTable buildLightTable(const Scene& scene, const Effects& effects, bool sample_surfaces_and_sky,
                            LightChoice choice);
 

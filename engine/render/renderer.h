@@ -91,7 +91,7 @@ struct RenderSettings {
 struct Film {
     uvec2 size{0};
     std::uint32_t samples = 0;
-    Image mean;      ///< RGBA: linear radiance, cd/m^2; alpha: share of samples that saw a surface or a sky
+    Image mean;      ///< RGBA: linear radiance, cd/m^2; alpha: share of samples that saw surface, sky or sun
     Image variance;  ///< RGB: estimated variance of the mean above (zero while samples < 2)
     Image counts;    ///< samples per pixel, where they differ; `samples` is then their mean
     Image albedo;    ///< RGB, when asked for

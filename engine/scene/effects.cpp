@@ -34,6 +34,7 @@ const std::array<EffectInfo, kEffectCount>& effectTable() {
          "gbuffer,path"},
         {kEffectLightSpheres, "lightSpheres", "round meshes that shine are sampled as one light each", "",
          "path"},
+        {kEffectSuns, "suns", "directional lights that are seen as discs", "lights", "path"},
     }};
     return kTable;
 }
@@ -229,6 +230,10 @@ private:
         for (const PunctualLight& light : scene_.lights) {
             if (anyPositive(light.intensity)) {
                 call(kEffectPunctualLights, fmt::format("light '{}' shines", light.name));
+                if (fillsAngle(light)) {
+                    call(kEffectSuns, fmt::format("light '{}' fills {:.3g} degrees", light.name,
+                                                  glm::degrees(light.angular_diameter)));
+                }
             }
         }
         if (scene_.environment) {

@@ -95,6 +95,11 @@ Camera framingCamera(const Bounds& bounds, float aspect) {
     return camera;
 }
 
+bool fillsAngle(const PunctualLight& light) {
+    return light.kind == PunctualLight::Kind::directional &&
+           light.angular_diameter >= kSmallestAngularDiameter;
+}
+
 Environment constantEnvironment(const vec3& radiance) {
     Environment environment;
     environment.name = "constant";

@@ -126,6 +126,13 @@ struct PunctualLight {
     float angular_diameter = 0.0F;  ///< radians that a directional light fills, at most pi; 0: sharp shadows
 };
 
+/// Of directional lights, radians. Smaller ones are points: unit directions in fp32, in steps of 6e-8, hardly
+/// resolve them.
+constexpr float kSmallestAngularDiameter = 1e-5F;
+
+/// Whether it is a disc in the sky, which surfaces reflect and cameras see.
+bool fillsAngle(const PunctualLight& light);
+
 /// Radiance from infinitely far: a lat-long map in cd/m^2. Row 0 is the zenith (+Y), the centre of the map
 /// looks along -Z and columns grow to the right as seen from inside (shaders/pure/latlong.glsl). A constant
 /// sky is a 1x1 map.

@@ -126,6 +126,8 @@ void validateLights(const Scene& scene) {
         require(l.inner_cone >= 0.0F && l.inner_cone <= l.outer_cone && l.outer_cone <= 0.5F * kPi, "light",
                 i, l.name, "its cone angles do not rise from 0 to at most pi/2");
         require(l.range >= 0.0F, "light", i, l.name, "its range is negative or not a number");
+        require(l.angular_diameter >= 0.0F && l.angular_diameter <= kPi, "light", i, l.name,
+                "the angle that it fills lies outside [0, pi]");
     }
     if (scene.environment) {
         const Image& map = scene.environment->radiance;

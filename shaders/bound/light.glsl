@@ -140,6 +140,14 @@ float pdfOfSky(vec3 direction) {
     return frame.environment_light == kNoIndex ? 0.0 : lightAt(frame.environment_light).pmf * pdfEnvironment(direction);
 }
 
+// A directional light that fills a cone of directions, called a sun, sends E over them: radiance E / (pi sin^2), so that a surface that faces it gets E.
+vec3 radianceOfSun(LightRecord sun) { return sun.intensity / (kPi * sun.cone_scale); }
+
+// Density of each of its directions.
+float pdfOfSun(LightRecord sun) { return sun.pmf / solidAngleCone(sun.cone_scale); }
+
+bool isInSun(LightRecord sun, vec3 direction) { return insideCone(-sun.direction, sun.cone_scale, direction); }
+
 // What the light emits at a point of its plane, seen from the front or the back.
 vec3 shapeEmission(LightRecord light, vec3 point, bool front) {
     if (!front && (light.kind & kLightDoubleSided) == 0u) return vec3(0.0);
@@ -201,13 +209,12 @@ LightSample sampleSphere(LightRecord light, float pmf, Surface from, vec2 u) {
     return LightSample(direction * (end / along), 1.0, light.emission, pdf, false, valid, light.instance, (along - light.range) / end);
 }
 
-// A directional light sends E over the cone of directions that it fills: radiance E / (pi sin^2), so that a surface that faces it gets E.
-LightSample sampleDirectional(LightRecord light, float pmf, vec2 u) {
+// Never in the tree: its own probability is all.
+LightSample sampleDirectional(LightRecord light, vec2 u) {
     const float kInfinity = uintBitsToFloat(0x7f800000u);
-    if (light.cone_scale <= 0.0) return LightSample(-light.direction, kInfinity, light.intensity, pmf, true, true, kNoIndex, 0.0);
+    if (!kSuns || light.cone_scale <= 0.0) return LightSample(-light.direction, kInfinity, light.intensity, light.pmf, true, true, kNoIndex, 0.0);
     vec3 direction = worldFromLocal(frameFromNormal(-light.direction), sampleCone(light.cone_scale, u));
-    return LightSample(direction, kInfinity, light.intensity / (kPi * light.cone_scale), pmf / solidAngleCone(light.cone_scale), true, true, kNoIndex,
-                       0.0);
+    return LightSample(direction, kInfinity, radianceOfSun(light), pdfOfSun(light), false, true, kNoIndex, 0.0);
 }
 
 // KHR_lights_punctual: inverse square, an optional range window, and a spot's cone.
@@ -244,7 +251,7 @@ LightSample sampleLight(Surface from, LightAsker asker, SampleAddress address, u
         return LightSample(e.direction, uintBitsToFloat(0x7f800000u), environmentRadiance(e.direction), pmf * e.pdf, false, e.pdf > 0.0, kNoIndex,
                            0.0);
     }
-    if (kPunctualLights && kind == kLightDirectional) return sampleDirectional(light, pmf, u.xy);
+    if (kPunctualLights && kind == kLightDirectional) return sampleDirectional(light, u.xy);
     if (kPunctualLights) return samplePunctualLight(light, pmf, from);
     return kNoLight;
 }

@@ -43,8 +43,6 @@ vec3 directLight(Surface s, LightAsker asker, vec3 wo_local, uint dimension, out
     return f * light.radiance * (wi_local.z * weight / light.pdf);
 }
 
-vec3 skyRadiance(vec3 direction) { return kEnvironment ? environmentRadiance(direction) : vec3(0.0); }
-
 // A path on its way.
 struct Path {
     Hit hit;             // the next vertex; kNoIndex: it has left the scene
@@ -75,13 +73,35 @@ vec3 foundLight(uint order, vec3 light) {
     return kept;
 }
 
-// What a path that left the scene finds there. Seen directly the sky counts whole.
-void endInSky(inout Path p) {
-    if (kEnvironment || p.bounce == 0u) {
-        float weight = p.bounce == 0u ? 1.0 : weightOfScattering(p.scatter_pdf, pdfOfSky(-p.wo));
-        p.radiance += foundLight(p.bounce, p.throughput * weight * skyRadiance(-p.wo));
+// Weight of light that the path meets. Seen directly it counts whole.
+float weightOfMeeting(Path p, float light_pdf) { return p.bounce == 0u ? 1.0 : weightOfScattering(p.scatter_pdf, light_pdf); }
+
+// What suns send along the way that the path left by. Where they overlap, each is an integral of its own.
+vec3 metSuns(Path p) {
+    vec3 light = vec3(0.0);
+    for (uint i = 0u; i < frame.suns; ++i) {
+        LightRecord sun = lightAt(frame.first_sun + i);
+        if (isInSun(sun, -p.wo)) light += weightOfMeeting(p, pdfOfSun(sun)) * radianceOfSun(sun);
     }
+    return light;
+}
+
+// What a path that left the scene finds there.
+void endInSky(inout Path p) {
+    vec3 light = vec3(0.0);
+    if (kEnvironment) light = p.throughput * weightOfMeeting(p, pdfOfSky(-p.wo)) * environmentRadiance(-p.wo);
+    if (kSuns) light += p.throughput * metSuns(p);
+    if (kEnvironment || kSuns) p.radiance += foundLight(p.bounce, light);
     p.alive = false;
+}
+
+// Whether a picture is opaque there: a surface, an environment, a sun's disc.
+bool covers(Hit hit, vec3 wo) {
+    bool covered = hit.instance != kNoIndex || frame.has_sky != 0u;
+    if (kSuns) {
+        for (uint i = 0u; i < frame.suns; ++i) covered = covered || isInSun(lightAt(frame.first_sun + i), -wo);
+    }
+    return covered;
 }
 
 // One vertex of the path: what is emitted there (added to its radiance), what arrives there from a light if `light_ray` is not blocked, and where the
@@ -89,12 +109,11 @@ void endInSky(inout Path p) {
 vec3 extendPath(inout Path p, out RayQuery light_ray, out RayQuery path_ray) {
     light_ray = kNoRayQuery;
     path_ray = kNoRayQuery;
-    // What the surface emits: T^bounce Le. Seen directly it counts whole.
+    // What the surface emits: T^bounce Le.
     Surface s = surfaceAt(p.hit, p.wo);
     if (kRegularise && p.bounce > 0u) s.bsdf = regularised(s.bsdf);
     if (kEmission || kUnlit) {
-        float weight = p.bounce == 0u ? 1.0 : weightOfScattering(p.scatter_pdf, pdfOfSurface(s, p.from));
-        p.radiance += foundLight(p.bounce, p.throughput * weight * s.emission);
+        p.radiance += foundLight(p.bounce, p.throughput * weightOfMeeting(p, pdfOfSurface(s, p.from)) * s.emission);
     }
     p.alive = p.bounce < frame.bounces;
     if (!p.alive) return vec3(0.0);

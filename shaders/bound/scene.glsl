@@ -18,6 +18,7 @@ layout(constant_id = 7) const bool kLightTriangles = true;
 layout(constant_id = 8) const bool kPunctualLights = true;
 layout(constant_id = 9) const bool kEnvironment = true;
 layout(constant_id = 10) const bool kUnlit = true;
+layout(constant_id = 14) const bool kSuns = true;
 
 // A storage buffer, though a uniform one would hold it: Mesa 22.3's lavapipe writes the values of uniforms that decide branches and loops into the
 // program and compiles it again at every submission (measured: 10 s a sample for a textured scene).

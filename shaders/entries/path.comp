@@ -51,7 +51,7 @@ void main() {
             g_rays_before = 1u;  // the rasteriser's was the first
             Hit hit = gbufferHit(ivec2(pixel));
             p = beginPath(hit, gbufferWo(hit, ivec2(pixel), push.sample_index));
-            covered = hit.instance != kNoIndex || frame.has_sky != 0u;
+            covered = covers(hit, p.wo);
         }
         if (p.hit.instance != kNoIndex) extendAndTrace(p, counts);
     }

@@ -10,5 +10,6 @@ layout(local_size_x = 8, local_size_y = 8) in;
 void main() {
     uvec2 pixel = pixelOfThread();
     if (!insideSlice(pixel) || !isSampled(pixel, frame.view.size.x, push.sample_index)) return;
-    storeSample(pixel, radianceOf(pathOfThread()), gbufferHit(ivec2(pixel)).instance != kNoIndex || frame.has_sky != 0u);
+    Hit hit = gbufferHit(ivec2(pixel));
+    storeSample(pixel, radianceOf(pathOfThread()), covers(hit, gbufferWo(hit, ivec2(pixel), push.sample_index)));
 }

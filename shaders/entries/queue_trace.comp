@@ -25,7 +25,7 @@ void giveHit(bool gives, TraceHit found) {
     bool hits = gives && found.position != kNoIndex;
     if (hits) {
         storeHit(g_path, g_hit);
-    } else if (gives && kEnvironment) {
+    } else if (gives && (kEnvironment || kSuns)) {
         if (kOrders > 0u || kClamp) addressPath(g_path, 0u);
         Path p = loadPath(g_path);
         endInSky(p);

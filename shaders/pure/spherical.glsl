@@ -144,13 +144,22 @@ vec3 sampleRectangleSolidAngle(vec3 corner, vec3 edge_u, vec3 edge_v, vec2 u) {
     return corner + (x - s.x.x) / max(size.x, kLeastSquare) * edge_u + (y - s.y.x) / max(size.y, kLeastSquare) * edge_v;
 }
 
-// Of a cone by the square of the sine of its half angle, at most pi / 2: 1 - cos without cancellation.
-float solidAngleCone(float sin2_half_angle) { return 2.0 * kPi * (sin2_half_angle / (1.0 + sqrt(max(1.0 - sin2_half_angle, 0.0)))); }
+// 1 - cos of a cone's half angle, at most pi / 2, from the square of its sine: no cancellation.
+float coneHeight(float sin2_half_angle) { return sin2_half_angle / (1.0 + sqrt(max(1.0 - sin2_half_angle, 0.0))); }
+
+float solidAngleCone(float sin2_half_angle) { return 2.0 * kPi * coneHeight(sin2_half_angle); }
 
 // A unit direction of the cone around +Z, uniform by solid angle.
 vec3 sampleCone(float sin2_half_angle, vec2 u) {
-    float height = u.x * (sin2_half_angle / (1.0 + sqrt(max(1.0 - sin2_half_angle, 0.0))));  // 1 - cos
+    float height = u.x * coneHeight(sin2_half_angle);
     return vec3(sqrt(height * (2.0 - height)) * unitCircle(u.y), 1.0 - height);
+}
+
+// Whether a unit direction is in the cone around `axis`. The chord between them squared is 2 - 2 cos; in a narrow cone the difference is exact, and
+// what a length is off by, 1e-7, adds only its square. The components' own rounding blurs the rim by as much, inwards and outwards alike.
+bool insideCone(vec3 axis, float sin2_half_angle, vec3 direction) {
+    vec3 chord = direction - axis;
+    return dot(chord, chord) < 2.0 * coneHeight(sin2_half_angle);
 }
 
 #endif

@@ -208,6 +208,10 @@ struct FrameRecord {
     float clamp_limit;    // cd/m^2, of what one indirect contribution may add to a pixel; read where kConstantClamp is set
     uint tree_lights;     // so many of the lights, the first ones, are picked by the tree; 0: none
     float environment_peak;   // largest density of a direction to it, 1/sr
+    uint first_sun;       // of the lights; so many stand together
+    uint suns;
+    uint reserved0;
+    uint reserved1;
 };
 
 // Push constants of the passes that draw samples.

@@ -19,8 +19,12 @@
 namespace licht {
 namespace {
 
-Scene builtin(const char* name) {
-    return *makeBuiltinScene(name);
+// "sunny": the terrain under a sun of 10 degrees.
+Scene builtin(std::string_view name) {
+    if (name != "sunny") return *makeBuiltinScene(name);
+    Scene scene = *makeBuiltinScene("terrain", 5000);
+    for (PunctualLight& light : scene.lights) light.angular_diameter = 0.17F;
+    return scene;
 }
 
 RenderSettings small() {
@@ -287,7 +291,8 @@ TEST_P(EveryScene, TracedPrimaryHitsAreTheRasterisedOnes) {
     EXPECT_LE(result.far_away, result.hits / 500);
 }
 
-INSTANTIATE_TEST_SUITE_P(Builtin, EveryScene, testing::Values("cornell", "furnace", "gallery", "empty"),
+INSTANTIATE_TEST_SUITE_P(Builtin, EveryScene,
+                         testing::Values("cornell", "furnace", "gallery", "sunny", "empty"),
                          [](const auto& instance) { return std::string(instance.param); });
 
 }  // namespace

@@ -177,23 +177,164 @@ TEST(TexturedLight, IsWhatScatteringFinds) {
                    0.5 * 0.5 * 4.0 * 0.2000437761);
 }
 
-// A directional light says what a surface that faces it gets, whatever part of the sky it fills.
+// A directional light that fills `degrees` and gives 3 lx to a surface that faces it.
+constexpr float kLux = 3.0F;
+PunctualLight sunOf(double degrees, const vec3& direction = vec3(0, -1, 0)) {
+    PunctualLight sun;
+    sun.kind = PunctualLight::Kind::directional;
+    sun.direction = direction;
+    sun.intensity = vec3(kLux);
+    sun.angular_diameter = static_cast<float>(degrees * kPi / 180.0);
+    return sun;
+}
+
+double radianceOfSun(double degrees) {
+    const double sine = std::sin(0.5 * degrees * kPi / 180.0);
+    return static_cast<double>(kLux) / (kPi * sine * sine);
+}
+
+// The receiver and nothing else above the ground, in one material.
+Scene sunlit(const Material& material, std::vector<PunctualLight> suns) {
+    Scene scene;
+    scene.materials = {material};
+    addReceiver(scene, 0.5F);
+    scene.lights = std::move(suns);
+    return scene;
+}
+
+RenderSettings sunSettings(DirectLight direct) {
+    return settingsOf(direct, MisHeuristic::power, LightChoice::tree);
+}
+
+Film sunFilm(const Scene& scene, DirectLight direct, std::uint32_t samples = 64) {
+    return renderFilm(scene, downCamera(vec3(0.0F), 0.5F, 3.0F), sunSettings(direct), samples);
+}
+
+Material metal(float roughness) {
+    Material m;
+    m.metallic = 1.0F;
+    m.roughness = roughness;
+    return m;
+}
+
+constexpr DirectLight kEveryDirect[] = {DirectLight::mis, DirectLight::area, DirectLight::hemisphere};
+
+// A directional light says what a surface that faces it gets, whatever part of the sky it fills. Scattering
+// alone finds a small one too seldom to tell anything, and one that has no size not at all.
 TEST(Sun, IlluminatesAlikeAtAnySize) {
-    for (const double degrees : {0.0, 0.5332, 20.0, 120.0}) {
-        Scene scene;
-        scene.materials = {lambert(0.5F)};
-        addReceiver(scene, 0.5F);
-        PunctualLight sun;
-        sun.kind = PunctualLight::Kind::directional;
-        sun.direction = vec3(0, -1, 0);
-        sun.intensity = vec3(3.0F);
-        sun.angular_diameter = static_cast<float>(degrees * kPi / 180.0);
-        scene.lights = {sun};
-        const Film film =
-            renderFilm(scene, downCamera(vec3(0.0F), 0.5F, 3.0F),
-                       settingsOf(DirectLight::mis, MisHeuristic::power, LightChoice::tree), 64);
-        expectMean(film, 0.5 / kPi * 3.0);
+    for (const double degrees : {0.0, 1e-3, 0.5332, 20.0, 120.0, 180.0}) {
+        const Scene scene = sunlit(lambert(0.5F), {sunOf(degrees)});
+        for (const DirectLight direct : kEveryDirect) {
+            if (degrees < 20.0 && direct != DirectLight::mis) continue;
+            SCOPED_TRACE(std::to_string(degrees) + " degrees, " + std::to_string(static_cast<int>(direct)));
+            expectMean(sunFilm(scene, direct), 0.5 / kPi * 3.0);
+        }
     }
+}
+
+// All of the sky at one radiance: scattering by the cosine is without noise.
+TEST(Sun, OfHalfTheSkyIsAUniformSky) {
+    const Film film = sunFilm(sunlit(lambert(1.0F), {sunOf(180.0)}), DirectLight::hemisphere, 4);
+    for (std::size_t i = 0; i < film.mean.texels.size(); i += 4)
+        ASSERT_NEAR(static_cast<double>(film.mean.texels[i]), 3.0 / kPi, 1e-6);
+}
+
+// Every light is an integral of its own, where they overlap too: two suns that share a half of each, 45
+// degrees high, under a sky of 0.25. A cone that is all above the horizon gives what its axis says.
+TEST(Sun, OverlappingSunsAndTheSkyAddUp) {
+    const float r = std::sqrt(0.5F);
+    Scene scene = sunlit(lambert(0.5F), {sunOf(60.0, vec3(r, -r, 0)), sunOf(40.0, vec3(0, -1, 0)),
+                                         sunOf(0.0, vec3(0, -r, r))});
+    scene.environment = constantEnvironment(vec3(0.25F));
+    const double exact = 0.5 / kPi * 3.0 * (2.0 * std::sqrt(0.5) + 1.0) + 0.5 * 0.25;
+    for (const DirectLight direct : kEveryDirect) expectMean(sunFilm(scene, direct, 128), exact);
+}
+
+// A mirror shows the disc as it is; its lobe of 1e-3 is far narrower than the sun, and keeps all but the
+// square of that.
+TEST(Sun, IsSeenInAMirror) {
+    const double exact = radianceOfSun(20.0);
+    const Scene scene = sunlit(metal(0.0F), {sunOf(20.0)});
+    const Film film = sunFilm(scene, DirectLight::hemisphere, 4);
+    for (std::size_t i = 0; i < film.mean.texels.size(); i += 4)
+        ASSERT_NEAR(static_cast<double>(film.mean.texels[i]), exact, 1e-5 * exact);
+    expectMean(sunFilm(scene, DirectLight::mis), exact);
+    // Beside the disc it is dark.
+    const Film beside =
+        sunFilm(sunlit(metal(0.0F), {sunOf(20.0, vec3(std::sqrt(0.5F), -std::sqrt(0.5F), 0))}),
+                DirectLight::hemisphere, 4);
+    for (std::size_t i = 0; i < beside.mean.texels.size(); i += 4) ASSERT_EQ(beside.mean.texels[i], 0.0F);
+}
+
+TEST(Sun, GlossySurfacesShowItAlikeByEveryEstimator) {
+    const Scene scene = sunlit(metal(0.5F), {sunOf(30.0, glm::normalize(vec3(0.3F, -1, 0.1F)))});
+    const PictureMean mis = pictureMean(sunFilm(scene, DirectLight::mis), 1);
+    EXPECT_LT(mis.standard_error, 2e-3 * mis.mean) << "too noisy to tell anything";
+    for (const DirectLight direct : {DirectLight::area, DirectLight::hemisphere}) {
+        const PictureMean other = pictureMean(sunFilm(scene, direct), 1);
+        EXPECT_LE(std::abs(mis.mean - other.mean), 4.5 * std::hypot(mis.standard_error, other.standard_error))
+            << static_cast<int>(direct);
+    }
+}
+
+// The camera sees the disc, opaque, and nothing beside it: each sample is all or nothing.
+TEST(Sun, IsSeenByTheCamera) {
+    constexpr double kDegrees = 20.0;
+    const double disc = radianceOfSun(kDegrees);
+    Camera camera;
+    camera.y_fov = static_cast<float>(40.0 * kPi / 180.0);
+    struct Case {
+        float sky;
+        DirectLight direct;
+        bool queues;
+    };
+    for (const Case c : {Case{0.0F, DirectLight::mis, false}, Case{0.0F, DirectLight::area, true},
+                         Case{0.25F, DirectLight::area, false}, Case{0.25F, DirectLight::hemisphere, true}}) {
+        Scene scene;
+        scene.lights = {sunOf(kDegrees, vec3(0, 0, 1))};
+        if (c.sky > 0.0F) scene.environment = constantEnvironment(vec3(c.sky));
+        RenderSettings settings = sunSettings(c.direct);
+        settings.bounces = 0;
+        settings.queues = c.queues;
+        const Film film = renderFilm(scene, camera, settings, 1);
+        double inside = 0.0;
+        for (std::size_t i = 0; i < film.mean.texels.size(); i += 4) {
+            const float value = film.mean.texels[i];
+            const bool hit = value > c.sky;
+            ASSERT_NEAR(static_cast<double>(value), static_cast<double>(c.sky) + (hit ? disc : 0.0),
+                        1e-6 * disc);
+            ASSERT_EQ(film.mean.texels[i + 3], hit || c.sky > 0.0F ? 1.0F : 0.0F);
+            inside += hit ? 1.0 : 0.0;
+        }
+        // One point a pixel, at the same place in each: Gauss's circle problem, |error| <= 2 sqrt(2) pi r.
+        const double radius = 48.0 * 0.5 * std::tan(10.0 * kPi / 180.0) / std::tan(20.0 * kPi / 180.0);
+        EXPECT_NEAR(inside, kPi * radius * radius, 2.0 * std::sqrt(2.0) * kPi * radius);
+    }
+}
+
+// The disc is order 0, what it lights is order 1, and the orders sum to the picture (orders_test says to how
+// many roundings).
+TEST(Sun, OrdersSumToThePicture) {
+    Scene scene = sunlit(metal(0.3F), {sunOf(60.0, glm::normalize(vec3(0.2F, -1, 0.3F)))});
+    scene.environment = constantEnvironment(vec3(0.1F));
+    Camera camera;  // the horizon crosses the picture
+    camera.y_fov = 2.0F;
+    camera.world_from_view = glm::translate(mat4(1.0F), vec3(0, 0.05F, 0.6F));
+    RenderSettings settings = sunSettings(DirectLight::mis);
+    settings.bounces = 3;
+    settings.orders = true;
+    const Film film = renderFilm(scene, camera, settings, 8);
+    ASSERT_EQ(film.orders.size(), 4U);
+    float brightest = 0.0F;
+    for (std::size_t i = 0; i < film.mean.texels.size(); ++i) {
+        if (i % 4 == 3) continue;
+        double sum = 0.0;
+        for (const Image& order : film.orders) sum += static_cast<double>(order.texels[i / 4 * 3 + i % 4]);
+        const auto mean = static_cast<double>(film.mean.texels[i]);
+        ASSERT_NEAR(sum, mean, 32 * 6e-8 * mean);
+        brightest = std::max(brightest, film.orders[0].texels[i / 4 * 3 + i % 4]);
+    }
+    EXPECT_NEAR(static_cast<double>(brightest), radianceOfSun(60.0) + 0.1, 1e-5);
 }
 
 // Many lights of many kinds: near, far, hidden, facing away, spots. Every choice among them has the same

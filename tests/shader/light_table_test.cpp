@@ -127,6 +127,49 @@ TEST(LightTable, ProbabilitiesSumToOne) {
     EXPECT_EQ(tree.environment_light, 63U);
 }
 
+// Lights that fill an angle stand together behind those that do not. Where scattering alone finds them they
+// are there and never picked.
+TEST(LightTable, SunsStandTogetherAndArePickedOnlyWhereLightsAreSampled) {
+    PunctualLight sharp;
+    sharp.kind = PunctualLight::Kind::directional;
+    sharp.range = 1.0F;  // says which is which
+    PunctualLight sun = sharp;
+    sun.angular_diameter = 0.01F;
+    sun.range = 2.0F;
+    PunctualLight spot;
+    spot.kind = PunctualLight::Kind::spot;
+    spot.angular_diameter = 0.01F;  // means nothing here
+    PunctualLight speck = sharp;
+    speck.angular_diameter = 0.5F * kSmallestAngularDiameter;
+    for (const int quads : {0, 3}) {
+        Scene scene = sceneOfQuads(quads);
+        scene.lights = {sun, sharp, sun, spot, speck};
+        scene.environment = constantEnvironment(vec3(1.0F));
+        for (const bool sampled : {true, false}) {
+            for (const LightChoice choice : {LightChoice::tree, LightChoice::power, LightChoice::uniform}) {
+                const LightTable table = buildLightTable(scene, detectEffects(scene), sampled, choice);
+                ASSERT_EQ(table.suns, 2U);
+                EXPECT_NEAR(sumOfPmf(table), 1.0, 1e-6);
+                for (uint i = 0; i < table.lights.size(); ++i) {
+                    const LightRecord& light = table.lights[i];
+                    const bool is_sun = i >= table.first_sun && i < table.first_sun + table.suns;
+                    EXPECT_EQ(kindOf(light) == kLightDirectional && light.range == 2.0F, is_sun);
+                    if (kindOf(light) != kLightDirectional) continue;
+                    EXPECT_EQ(light.cone_scale > 0.0F, is_sun);
+                    EXPECT_EQ(light.pmf > 0.0F, sampled || !is_sun);
+                }
+            }
+        }
+    }
+    Scene alone;
+    alone.lights = {sun};
+    const LightTable found = buildLightTable(alone, detectEffects(alone), false, LightChoice::tree);
+    EXPECT_TRUE(found.alias.empty());
+    ASSERT_EQ(found.lights.size(), 1U);
+    EXPECT_EQ(found.first_sun, 0U);
+    EXPECT_EQ(found.suns, 1U);
+}
+
 // Effects on demand: nothing is picked by a tree where there is nothing to pick.
 TEST(LightTable, OneLightHasNoTree) {
     EXPECT_TRUE(tableOf(sceneOfQuads(1), LightChoice::tree).tree.empty());

@@ -18,7 +18,7 @@ using glm::dvec3;
 constexpr double kRounding = 0x1p-24;  ///< relative error of one rounding to fp32
 
 /// What tests/shader/spherical.comp is asked for.
-enum Shape : std::uint32_t { kTriangle, kRectangle, kCone, kArctangent, kLimits };
+enum Shape : std::uint32_t { kTriangle, kRectangle, kCone, kArctangent, kLimits, kInsideCone };
 
 struct Patch {
     Shape shape = kTriangle;

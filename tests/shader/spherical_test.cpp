@@ -375,6 +375,69 @@ TEST_F(Spherical, cones) {
     }
 }
 
+// Diameters from the least that a light may have to half of all directions.
+constexpr double kHalfAngles[] = {5e-6, 5e-5, 5e-4, 0.2666 * kPi / 180.0, 0.1, 1.0, kPi / 2.0};
+
+dvec3 unitVector(std::mt19937& random) {
+    std::normal_distribution<double> normal;
+    return normalize(dvec3(normal(random), normal(random), normal(random)));
+}
+
+// What says whether a direction is in a cone agrees with double precision but for a rim. In units of the
+// cone's chord R that is 8 roundings wide, for the dot product and the cone's height, and where both lengths
+// are off by 2^-24 the square of the chord grows by the square of their difference.
+TEST_F(Spherical, insideOfConesEndsAtTheRim) {
+    std::mt19937 random(23);
+    std::uniform_real_distribution<double> uniform(0.0, 1.0);
+    for (const double angle : kHalfAngles) {
+        const auto sin2 = static_cast<float>(std::sin(angle) * std::sin(angle));
+        const double chord = std::sqrt(2.0 * d(sin2) / (1.0 + std::sqrt(1.0 - d(sin2))));
+        std::vector<Question> questions;
+        for (int i = 0; i < 1 << 14; ++i) {
+            const vec3 axis(unitVector(random));
+            const dvec3 side = normalize(cross(dvec3(axis), unitVector(random)));
+            // A quarter of them within 1e-3 of the rim.
+            const double at = i % 4 == 0 ? 1.0 + 2e-3 * (uniform(random) - 0.5) : 2.0 * uniform(random);
+            const double turn = 2.0 * std::asin(std::min(0.5 * at * chord, 1.0));
+            const dvec3 w = std::cos(turn) * normalize(dvec3(axis)) + std::sin(turn) * side;
+            questions.push_back({vec4(sin2, 0, 0, 0), vec4(axis, 0), vec4(vec3(w), 0), {}});
+        }
+        const std::vector<vec4> answers = ask(kInsideCone, questions);
+        const double rim = 8.0 * kRounding + 0.5 * std::pow(2.0 * kRounding / chord, 2.0);
+        int decided = 0;
+        for (std::size_t i = 0; i < answers.size(); ++i) {
+            const dvec3 axis = normalize(dvec3(vec3(questions[i].b)));
+            const double at = length(normalize(dvec3(vec3(questions[i].c))) - axis) / chord;
+            if (std::abs(at - 1.0) <= rim) continue;
+            ++decided;
+            ASSERT_EQ(answers[i].w, at < 1.0 ? 1.0F : 0.0F) << angle << " at " << at;
+        }
+        EXPECT_GT(decided, 9 * (1 << 14) / 10) << angle;
+    }
+}
+
+// What is drawn is inside, but for roundings: of a direction's components, half a unit of 2^-24 each when it
+// is scaled and when it is summed, and 8 units of the part across, by frame and circle. Evenly spread
+// directions lie that near the rim with twice its share of the radius.
+TEST_F(Spherical, directionsDrawnInConesAreInside) {
+    std::mt19937 random(29);
+    const std::vector<dvec2> u = uniformNumbers(1U << 16U, 31);
+    for (const double angle : kHalfAngles) {
+        const auto sin2 = static_cast<float>(std::sin(angle) * std::sin(angle));
+        const double chord = std::sqrt(2.0 * d(sin2) / (1.0 + std::sqrt(1.0 - d(sin2))));
+        std::vector<Question> questions;
+        for (const dvec2& numbers : u)
+            questions.push_back({vec4(sin2, 0, 0, 0), vec4(vec3(unitVector(random)), 0), vec4(0),
+                                 vec4(numbers.x, numbers.y, 0, 0)});
+        double outside = 0.0;
+        for (const vec4& answer : ask(kInsideCone, questions)) outside += answer.w == 0.0F ? 1.0 : 0.0;
+        const double most = 2.0 * (kRounding / chord + 8.0 * kRounding) * static_cast<double>(u.size());
+        RecordProperty("outside_" + std::to_string(angle),
+                       std::to_string(outside / static_cast<double>(u.size())));
+        EXPECT_LE(outside, most + 4.5 * std::sqrt(most)) << angle;
+    }
+}
+
 TEST_F(Spherical, degenerateShapesGiveNothingAndNoNan) {
     const dvec3 o(0.0), x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
     // No area, or seen edge on; the last two inside the shape's own plane.

@@ -131,6 +131,24 @@ TEST(DetectEffects, EachByItsEvidence) {
          }},
         {{"punctualLights"}, [](Scene& s) { s.lights.push_back({.name = "L"}); }},
         {{}, [](Scene& s) { s.lights.push_back({.name = "L", .intensity = vec3(0)}); }},
+        {{"punctualLights", "suns"},
+         [](Scene& s) {
+             s.lights.push_back(
+                 {.name = "L", .kind = PunctualLight::Kind::directional, .angular_diameter = 0.01F});
+         }},
+        {{},
+         [](Scene& s) {
+             s.lights.push_back({.name = "L",
+                                 .kind = PunctualLight::Kind::directional,
+                                 .intensity = vec3(0),
+                                 .angular_diameter = 0.01F});
+         }},
+        {{"punctualLights"},
+         [](Scene& s) {
+             s.lights.push_back(
+                 {.name = "L", .kind = PunctualLight::Kind::directional, .angular_diameter = 1e-9F});
+         }},
+        {{"punctualLights"}, [](Scene& s) { s.lights.push_back({.name = "L", .angular_diameter = 0.01F}); }},
         {{"environment"}, [](Scene& s) { s.environment = constantEnvironment(vec3(0, 0, 0.1F)); }},
         {{}, [](Scene& s) { s.environment = constantEnvironment(vec3(0)); }},
         {{"unlit"},

@@ -116,6 +116,7 @@ TEST(ValidateScene, NamesTheObjectThatIsWrong) {
          }},
         {"camera 0 'c'", [](Scene& s) { s.cameras.push_back({.name = "c", .y_fov = 4.0F}); }},
         {"light 0 'l'", [](Scene& s) { s.lights.push_back({.name = "l", .direction = vec3(0, 0, -2)}); }},
+        {"light 0 'l'", [](Scene& s) { s.lights.push_back({.name = "l", .angular_diameter = 3.2F}); }},
         {"environment 0 'constant'",
          [](Scene& s) {
              s.environment = constantEnvironment(vec3(1));
