@@ -86,7 +86,7 @@ int bench(const BenchOptions& options) {
     report.driver = device.report().driver;
     report.size = shot.size;
     report.runs = options.runs;
-    report.quality = qualityName(options.quality);
+    report.quality = nameOf(options.quality);
 
     progress.show("BVH ...");
     const std::vector<BvhTriangle> triangles = trianglesOf(source.scene);

@@ -79,9 +79,10 @@ void addLook(CLI::App& app, std::optional<uvec2>& size, std::optional<double>& e
              [&exposure](std::string_view option, std::string_view text) {
                  exposure = parseExposure(option, text);
              });
-    addValue(
-        app, "--tonemap", "CURVE", "Display curve: none, neutral, agx or aces (default: neutral)",
-        [&tonemap](std::string_view option, std::string_view text) { tonemap = parseTonemap(option, text); });
+    addValue(app, "--tonemap", "CURVE", "Display curve: none, neutral, agx or aces (default: neutral)",
+             [&tonemap](std::string_view option, std::string_view text) {
+                 tonemap = parseChoice<Tonemap>(option, text);
+             });
     addDevice(app, device);
 }
 
@@ -118,19 +119,19 @@ void addSampling(CLI::App& app, RenderSettings& settings) {
     add("--direct", "HOW",
         "Direct light by mis (lights and scattering combined), hemisphere (scattering alone) or area (lights "
         "alone) (default: mis)",
-        settings.direct, parseDirectLight);
+        settings.direct, parseChoice<DirectLight>);
     add("--mis", "HOW", "Weights of mis: power or balance heuristic (default: power)", settings.mis,
-        parseMisHeuristic);
+        parseChoice<MisHeuristic>);
     add("--lights", "HOW",
         "Pick one of many lights by tree (near and facing first), power or uniform (default: tree)",
-        settings.lights, parseLightChoice);
+        settings.lights, parseChoice<LightChoice>);
     add("--environment-sampling", "HOW",
         "Draw a direction to the environment by inversion, alias or rejection (default: inversion)",
-        settings.environment_sampling, parseEnvironmentSampling);
+        settings.environment_sampling, parseChoice<EnvironmentSampling>);
     add("--sampler", "HOW",
         "Numbers from sobol (Owen-scrambled), blue (errors spread as blue noise, for few samples) or random "
         "(default: sobol)",
-        settings.sampler, parseSequence);
+        settings.sampler, parseChoice<Sequence>);
     app.add_flag("--adaptive", settings.adaptive,
                  "Draw more samples where the noise is; --spp is then the mean over the pixels")
         ->group(group);
@@ -170,7 +171,7 @@ void addExpert(CLI::App& app, RenderSettings& settings, QueueUse& queues) {
              "How well the BVH is built: fast, balanced or best; better trees take longer to build "
              "(default: balanced)",
              [&settings](std::string_view option, std::string_view text) {
-                 settings.bvh_quality = parseQuality(option, text);
+                 settings.bvh_quality = parseChoice<BvhQuality>(option, text);
              })
         ->group(group);
     // A flag, so that a value stands behind a "=" and a scene may follow it.
@@ -178,7 +179,7 @@ void addExpert(CLI::App& app, RenderSettings& settings, QueueUse& queues) {
         "Follow paths by small kernels with queues between them instead of one kernel, the same samples: "
         "--queues=on, off or auto, where it pays (default: auto)";
     app.add_flag("--queues{on}", queues_meaning)
-        ->each([&queues](const std::string& text) { queues = parseQueueUse("--queues", text); })
+        ->each([&queues](const std::string& text) { queues = parseChoice<QueueUse>("--queues", text); })
         ->group(group);
     app.add_flag("--flatten-instances", settings.flatten_instances,
                  "Store every instance of a mesh as triangles of its own")
@@ -258,7 +259,7 @@ void addBench(CLI::App& app, BenchOptions& options) {
     addValue(app, "--quality", "CHOICE",
              "How well the BVH is built: fast, balanced or best (default: balanced)",
              [&options](std::string_view option, std::string_view text) {
-                 options.quality = parseQuality(option, text);
+                 options.quality = parseChoice<BvhQuality>(option, text);
              });
     addValue(app, "--json", "FILE", "Write all numbers as JSON",
              [&options](std::string_view, std::string_view text) { options.json = text; });

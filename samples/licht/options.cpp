@@ -19,31 +19,47 @@ namespace {
 
 constexpr double kMaxExposure = 64.0;
 
-constexpr std::array<std::pair<std::string_view, Tonemap>, 4> kTonemaps{
-    {{"none", Tonemap::none}, {"neutral", Tonemap::neutral}, {"agx", Tonemap::agx}, {"aces", Tonemap::aces}}};
+template <typename Choice>
+struct Named {
+    std::string_view name;
+    Choice choice;
+};
 
-constexpr std::array<std::pair<std::string_view, QueueUse>, 3> kQueueUses{
-    {{"auto", QueueUse::automatic}, {"on", QueueUse::on}, {"off", QueueUse::off}}};
-
-constexpr std::array<std::pair<std::string_view, BvhQuality>, 3> kQualities{
-    {{"fast", BvhQuality::fast}, {"balanced", BvhQuality::balanced}, {"best", BvhQuality::best}}};
-
-constexpr std::array<std::pair<std::string_view, DirectLight>, 3> kDirectLights{
-    {{"mis", DirectLight::mis}, {"hemisphere", DirectLight::hemisphere}, {"area", DirectLight::area}}};
-
-constexpr std::array<std::pair<std::string_view, MisHeuristic>, 2> kMisHeuristics{
-    {{"power", MisHeuristic::power}, {"balance", MisHeuristic::balance}}};
-
-constexpr std::array<std::pair<std::string_view, LightChoice>, 3> kLightChoices{
-    {{"tree", LightChoice::tree}, {"power", LightChoice::power}, {"uniform", LightChoice::uniform}}};
-
-constexpr std::array<std::pair<std::string_view, EnvironmentSampling>, 3> kEnvironmentSamplings{
-    {{"alias", EnvironmentSampling::alias},
-     {"inversion", EnvironmentSampling::inversion},
-     {"rejection", EnvironmentSampling::rejection}}};
-
-constexpr std::array<std::pair<std::string_view, Sequence>, 3> kSequences{
-    {{"sobol", Sequence::sobol}, {"blue", Sequence::blue}, {"random", Sequence::random}}};
+constexpr auto namesOf(Tonemap /*kind*/) {
+    return std::to_array<Named<Tonemap>>({{"none", Tonemap::none},
+                                          {"neutral", Tonemap::neutral},
+                                          {"agx", Tonemap::agx},
+                                          {"aces", Tonemap::aces}});
+}
+constexpr auto namesOf(QueueUse /*kind*/) {
+    return std::to_array<Named<QueueUse>>(
+        {{"auto", QueueUse::automatic}, {"on", QueueUse::on}, {"off", QueueUse::off}});
+}
+constexpr auto namesOf(BvhQuality /*kind*/) {
+    return std::to_array<Named<BvhQuality>>(
+        {{"fast", BvhQuality::fast}, {"balanced", BvhQuality::balanced}, {"best", BvhQuality::best}});
+}
+constexpr auto namesOf(DirectLight /*kind*/) {
+    return std::to_array<Named<DirectLight>>(
+        {{"mis", DirectLight::mis}, {"hemisphere", DirectLight::hemisphere}, {"area", DirectLight::area}});
+}
+constexpr auto namesOf(MisHeuristic /*kind*/) {
+    return std::to_array<Named<MisHeuristic>>(
+        {{"power", MisHeuristic::power}, {"balance", MisHeuristic::balance}});
+}
+constexpr auto namesOf(LightChoice /*kind*/) {
+    return std::to_array<Named<LightChoice>>(
+        {{"tree", LightChoice::tree}, {"power", LightChoice::power}, {"uniform", LightChoice::uniform}});
+}
+constexpr auto namesOf(EnvironmentSampling /*kind*/) {
+    return std::to_array<Named<EnvironmentSampling>>({{"alias", EnvironmentSampling::alias},
+                                                      {"inversion", EnvironmentSampling::inversion},
+                                                      {"rejection", EnvironmentSampling::rejection}});
+}
+constexpr auto namesOf(Sequence /*kind*/) {
+    return std::to_array<Named<Sequence>>(
+        {{"sobol", Sequence::sobol}, {"blue", Sequence::blue}, {"random", Sequence::random}});
+}
 
 [[noreturn]] void refuse(std::string_view option, std::string_view text, std::string_view allowed) {
     throw InputError(fmt::format("{} '{}': must be {}", option, oneLine(text), allowed));
@@ -60,22 +76,13 @@ std::optional<T> wholeNumber(std::string_view text) {
 }
 
 template <typename Choice, std::size_t n>
-Choice choose(std::string_view option, std::string_view text,
-              const std::array<std::pair<std::string_view, Choice>, n>& choices) {
+Choice choose(std::string_view option, std::string_view text, const std::array<Named<Choice>, n>& choices) {
     std::string names;
     for (const auto& [name, choice] : choices) {
         if (name == text) return choice;
         names += fmt::format("{}{}", names.empty() ? "" : ", ", name);
     }
     refuse(option, text, "one of " + names);
-}
-
-template <typename Choice, std::size_t n>
-std::string_view nameOf(Choice choice, const std::array<std::pair<std::string_view, Choice>, n>& choices) {
-    const auto found = std::find_if(choices.begin(), choices.end(),
-                                    [choice](const auto& known) { return known.second == choice; });
-    assert(found != choices.end());
-    return found->first;
 }
 
 }  // namespace
@@ -161,65 +168,36 @@ vec3 parseColour(std::string_view option, std::string_view text) {
     refuse(option, text, "R,G,B: three numbers, 0 or greater");
 }
 
-Tonemap parseTonemap(std::string_view option, std::string_view text) {
-    return choose(option, text, kTonemaps);
+template <typename Choice>
+Choice parseChoice(std::string_view option, std::string_view text) {
+    return choose(option, text, namesOf(Choice{}));
 }
 
-std::string_view tonemapName(Tonemap curve) {
-    return nameOf(curve, kTonemaps);
+template <typename Choice>
+std::string_view nameOf(Choice choice) {
+    const auto names = namesOf(choice);
+    const auto found = std::find_if(names.begin(), names.end(),
+                                    [choice](const auto& known) { return known.choice == choice; });
+    assert(found != names.end());
+    return found->name;
 }
 
-BvhQuality parseQuality(std::string_view option, std::string_view text) {
-    return choose(option, text, kQualities);
-}
-
-QueueUse parseQueueUse(std::string_view option, std::string_view text) {
-    return choose(option, text, kQueueUses);
-}
-
-std::string_view qualityName(BvhQuality quality) {
-    return nameOf(quality, kQualities);
-}
-
-DirectLight parseDirectLight(std::string_view option, std::string_view text) {
-    return choose(option, text, kDirectLights);
-}
-
-std::string_view nameOf(DirectLight direct) {
-    return nameOf(direct, kDirectLights);
-}
-
-MisHeuristic parseMisHeuristic(std::string_view option, std::string_view text) {
-    return choose(option, text, kMisHeuristics);
-}
-
-std::string_view nameOf(MisHeuristic heuristic) {
-    return nameOf(heuristic, kMisHeuristics);
-}
-
-LightChoice parseLightChoice(std::string_view option, std::string_view text) {
-    return choose(option, text, kLightChoices);
-}
-
-std::string_view nameOf(LightChoice choice) {
-    return nameOf(choice, kLightChoices);
-}
-
-EnvironmentSampling parseEnvironmentSampling(std::string_view option, std::string_view text) {
-    return choose(option, text, kEnvironmentSamplings);
-}
-
-std::string_view nameOf(EnvironmentSampling sampling) {
-    return nameOf(sampling, kEnvironmentSamplings);
-}
-
-Sequence parseSequence(std::string_view option, std::string_view text) {
-    return choose(option, text, kSequences);
-}
-
-std::string_view nameOf(Sequence sequence) {
-    return nameOf(sequence, kSequences);
-}
+template Tonemap parseChoice(std::string_view, std::string_view);
+template QueueUse parseChoice(std::string_view, std::string_view);
+template BvhQuality parseChoice(std::string_view, std::string_view);
+template DirectLight parseChoice(std::string_view, std::string_view);
+template MisHeuristic parseChoice(std::string_view, std::string_view);
+template LightChoice parseChoice(std::string_view, std::string_view);
+template EnvironmentSampling parseChoice(std::string_view, std::string_view);
+template Sequence parseChoice(std::string_view, std::string_view);
+template std::string_view nameOf(Tonemap);
+template std::string_view nameOf(QueueUse);
+template std::string_view nameOf(BvhQuality);
+template std::string_view nameOf(DirectLight);
+template std::string_view nameOf(MisHeuristic);
+template std::string_view nameOf(LightChoice);
+template std::string_view nameOf(EnvironmentSampling);
+template std::string_view nameOf(Sequence);
 
 std::uint32_t blueBitsFor(std::optional<std::uint32_t> samples) {
     constexpr std::uint32_t kUnknown = 4, kMost = 10;
@@ -229,13 +207,13 @@ std::uint32_t blueBitsFor(std::optional<std::uint32_t> samples) {
 
 Layers parseLayers(std::string_view option, std::string_view text) {
     Layers layers;
-    const std::array<std::pair<std::string_view, bool*>, 7> names{{{"albedo", &layers.aovs.albedo},
-                                                                   {"normal", &layers.aovs.normal},
-                                                                   {"depth", &layers.aovs.depth},
-                                                                   {"motion", &layers.aovs.motion},
-                                                                   {"variance", &layers.variance},
-                                                                   {"sampleCount", &layers.sample_count},
-                                                                   {"bounces", &layers.orders}}};
+    const std::array<Named<bool*>, 7> names{{{"albedo", &layers.aovs.albedo},
+                                             {"normal", &layers.aovs.normal},
+                                             {"depth", &layers.aovs.depth},
+                                             {"motion", &layers.aovs.motion},
+                                             {"variance", &layers.variance},
+                                             {"sampleCount", &layers.sample_count},
+                                             {"bounces", &layers.orders}}};
     if (text == "all") {
         for (const auto& [name, wanted] : names) *wanted = true;
         return layers;

@@ -116,24 +116,13 @@ float parsePositiveFloat(std::string_view option, std::string_view text);
 double parseExposure(std::string_view option, std::string_view text);
 /// "R,G,B": finite, not negative.
 vec3 parseColour(std::string_view option, std::string_view text);
-BvhQuality parseQuality(std::string_view option, std::string_view text);
-/// As parseQuality reads it.
-std::string_view qualityName(BvhQuality quality);
-QueueUse parseQueueUse(std::string_view option, std::string_view text);
-Tonemap parseTonemap(std::string_view option, std::string_view text);
-/// As parseTonemap reads it.
-std::string_view tonemapName(Tonemap curve);
-/// How light is sought; a name is as its parser reads it.
-DirectLight parseDirectLight(std::string_view option, std::string_view text);
-std::string_view nameOf(DirectLight direct);
-MisHeuristic parseMisHeuristic(std::string_view option, std::string_view text);
-std::string_view nameOf(MisHeuristic heuristic);
-LightChoice parseLightChoice(std::string_view option, std::string_view text);
-std::string_view nameOf(LightChoice choice);
-EnvironmentSampling parseEnvironmentSampling(std::string_view option, std::string_view text);
-std::string_view nameOf(EnvironmentSampling sampling);
-Sequence parseSequence(std::string_view option, std::string_view text);
-std::string_view nameOf(Sequence sequence);
+/// One of what can be chosen by name: Tonemap, QueueUse, BvhQuality, DirectLight, MisHeuristic, LightChoice,
+/// EnvironmentSampling, Sequence.
+template <typename Choice>
+Choice parseChoice(std::string_view option, std::string_view text);
+/// As parseChoice reads it.
+template <typename Choice>
+std::string_view nameOf(Choice choice);
 /// log2 of the samples that sampler blue spreads well together, for a picture of that many per pixel; 4 where
 /// that is not known.
 std::uint32_t blueBitsFor(std::optional<std::uint32_t> samples);

@@ -34,7 +34,7 @@ std::string title(const std::string& scene, const Accumulation& accumulation, co
     std::string text = fmt::format("{} - {} samples, {:.1f} ms each", scene, advance.samples,
                                    1000.0 * advance.seconds / std::max(advance.samples, 1U));
     if (advance.error >= 0.0) text += fmt::format(", error {:.3g}", advance.error);
-    return text + fmt::format(" - {}, {:+.2f} EV - Licht", tonemapName(state.tonemap), state.exposure);
+    return text + fmt::format(" - {}, {:+.2f} EV - Licht", nameOf(state.tonemap), state.exposure);
 }
 
 void estimateError(Renderer& renderer, const Window& window, Accumulation& accumulation) {

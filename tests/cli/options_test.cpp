@@ -77,10 +77,10 @@ TEST(ParseOutput, KnowsTwoEndings) {
 }
 
 TEST(ParseChoices, KnowTheirNames) {
-    EXPECT_EQ(parseTonemap("--tonemap", "agx"), Tonemap::agx);
-    EXPECT_EQ(parseDirectLight("--direct", "hemisphere"), DirectLight::hemisphere);
-    EXPECT_THROW(parseTonemap("--tonemap", "AGX"), InputError);
-    EXPECT_THROW(parseDirectLight("--direct", ""), InputError);
+    EXPECT_EQ(parseChoice<Tonemap>("--tonemap", "agx"), Tonemap::agx);
+    EXPECT_EQ(parseChoice<DirectLight>("--direct", "hemisphere"), DirectLight::hemisphere);
+    EXPECT_THROW(parseChoice<Tonemap>("--tonemap", "AGX"), InputError);
+    EXPECT_THROW(parseChoice<DirectLight>("--direct", ""), InputError);
 }
 
 TEST(Parsers, NameOptionAndValue) {

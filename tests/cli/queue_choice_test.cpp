@@ -57,8 +57,8 @@ TEST(QueueChoice, WhatQueuesCannotDoOrDoNotSpeedUpIsNotChosen) {
 TEST(QueueChoice, WhatIsAskedForIsDone) {
     EXPECT_TRUE(chooseQueues(QueueUse::on, picture(), samples(1), false));
     EXPECT_FALSE(chooseQueues(QueueUse::off, picture(), samples(64), true));
-    EXPECT_EQ(parseQueueUse("--queues", "auto"), QueueUse::automatic);
-    EXPECT_THROW(parseQueueUse("--queues", "yes"), InputError);
+    EXPECT_EQ(parseChoice<QueueUse>("--queues", "auto"), QueueUse::automatic);
+    EXPECT_THROW(parseChoice<QueueUse>("--queues", "yes"), InputError);
 }
 
 }  // namespace
