@@ -6,15 +6,9 @@
 #include <cstring>
 #include <iostream>
 
-#include "licht/gpu/commands.h"
-#include "licht/render/gpu_scene.h"
-#include "licht/render/history.h"
-#include "licht/render/passes.h"
-#include "licht/render/programs.h"
-#include "licht/render/view.h"
 #include "licht/scenes/builtin.h"
 #include "licht/spirv/primary_hits_comp.h"
-#include "support/gpu_test.h"
+#include "support/first_hits.h"
 
 namespace licht {
 namespace {
@@ -27,44 +21,10 @@ struct Outcome {
 };
 
 std::vector<Outcome> retrace(const Scene& scene, uvec2 size) {
-    gpu::Device& device = gpu::testDevice();
-    Effects effects = detectEffects(scene);
-    effects.on[kEffectAlpha] = false;  // the same surfaces for both: nothing is there by chance
-    const GpuScene gpu_scene(device, scene, effects, {});
-    History history(device, size, false);
-    gpu::SpecConstants constants = gpu_scene.constants();
-    for (uint e = 0; e < kEffectCount; ++e) constants[e] = effects.has(e) ? 1U : 0U;
-    const Programs programs(device, constants, false);
-    const gpu::Program program = gpu::Program::compute(device, "primary_hits", primary_hits_comp, constants);
-    FrameRecord frame{};
-    frame.view = makeView(scene.cameras[0], size, gpu_scene.bounds());
-    frame.previous_view = frame.view;
-    gpu_scene.describe(frame);
-    gpu::Buffer frame_buffer(device, "frame", sizeof(frame), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
-                             gpu::Memory::host_write);
-    std::memcpy(frame_buffer.mapped(), &frame, sizeof(frame));
     std::vector<Outcome> outcomes(std::size_t{size.x} * size.y);
-    gpu::Buffer output(device, "outcome", outcomes.size() * sizeof(Outcome),
-                       VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Memory::host_read);
-    std::vector<gpu::BoundResource> resources = gpu_scene.resources();
-    for (const gpu::BoundResource& r : history.resources()) resources.push_back(r);
-    resources.push_back({"FrameBlock", &frame_buffer});
-    resources.push_back({"OutcomeBlock", &output});
-    const gpu::Bindings gbuffer_bindings(device, programs.gbuffer, resources);
-    const gpu::Bindings bindings(device, program, resources);
-    SamplePush push{};
-    push.row_count = size.y;
-    gpu::Commands commands(device);
-    commands.begin();
-    recordGbuffer(commands, programs.gbuffer, gbuffer_bindings, gpu_scene, history, push);
-    commands.pass("primary_hits",
-                  {{&history.gbuffer, gpu::Access::compute_read}, {&output, gpu::Access::compute_write}},
-                  [&](const gpu::Pass& pass) { pass.dispatch(program, bindings, push, size.x, size.y); });
-    const gpu::Buffer* visible = &output;
-    commands.makeVisibleToHost(std::span(&visible, 1));
-    commands.submit();
-    commands.wait();
-    std::memcpy(outcomes.data(), output.mapped(), outcomes.size() * sizeof(Outcome));
+    const std::vector<std::byte> bytes =
+        lookAtFirstHits(scene, size, "primary_hits", primary_hits_comp, outcomes.size() * sizeof(Outcome));
+    std::memcpy(outcomes.data(), bytes.data(), bytes.size());
     return outcomes;
 }
 

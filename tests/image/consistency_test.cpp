@@ -5,14 +5,11 @@
 #include <cmath>
 #include <cstring>
 
-#include "licht/gpu/commands.h"
 #include "licht/render/gpu_scene.h"
-#include "licht/render/history.h"
-#include "licht/render/passes.h"
 #include "licht/render/programs.h"
-#include "licht/render/view.h"
 #include "licht/scenes/builtin.h"
 #include "licht/spirv/consistency_comp.h"
+#include "support/first_hits.h"
 #include "support/gpu_test.h"
 #include "support/render_test.h"
 
@@ -233,52 +230,14 @@ TEST_P(EveryScene, PathsOneAfterTheOtherGiveTheSameBits) {
 // Every pixel's primary hit, traced again from the eye through the same point: the same primitive, or the
 // neighbour across an edge that lies within rounding of it.
 TEST_P(EveryScene, TracedPrimaryHitsAreTheRasterisedOnes) {
-    gpu::Device& device = gpu::testDevice();
     const Scene scene = builtin(GetParam());
-    Effects effects = detectEffects(scene);
-    effects.on[kEffectAlpha] = false;  // the same surfaces for both: nothing is there by chance
-    const GpuScene gpu_scene(device, scene, effects, {});
     const uvec2 size(160, 120);
-    History history(device, size, false);
-    gpu::SpecConstants constants = gpu_scene.constants();
-    for (uint e = 0; e < kEffectCount; ++e) constants[e] = effects.has(e) ? 1U : 0U;
-    const Programs programs(device, constants, false);
-    const gpu::Program retrace = gpu::Program::compute(device, "retrace", consistency_comp, constants);
-
-    FrameRecord frame{};
-    frame.view = makeView(scene.cameras[0], size, gpu_scene.bounds());
-    frame.previous_view = frame.view;
-    gpu_scene.describe(frame);
-    gpu::Buffer frame_buffer(device, "frame", sizeof(frame), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
-                             gpu::Memory::host_write);
-    std::memcpy(frame_buffer.mapped(), &frame, sizeof(frame));
     struct Outcome {
         uint hits, different, far_away, lost;
     };
-    gpu::Buffer outcome(device, "outcome", sizeof(Outcome), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
-                        gpu::Memory::host_read);
-    std::memset(outcome.mapped(), 0, sizeof(Outcome));
-    std::vector<gpu::BoundResource> resources = gpu_scene.resources();
-    for (const gpu::BoundResource& r : history.resources()) resources.push_back(r);
-    resources.push_back({"FrameBlock", &frame_buffer});
-    resources.push_back({"OutcomeBlock", &outcome});
-    const gpu::Bindings gbuffer_bindings(device, programs.gbuffer, resources);
-    const gpu::Bindings retrace_bindings(device, retrace, resources);
-    SamplePush push{};
-    push.row_count = size.y;
-    gpu::Commands commands(device);
-    commands.begin();
-    recordGbuffer(commands, programs.gbuffer, gbuffer_bindings, gpu_scene, history, push);
-    commands.pass(
-        "retrace",
-        {{&history.gbuffer, gpu::Access::compute_read}, {&outcome, gpu::Access::compute_read_write}},
-        [&](const gpu::Pass& pass) { pass.dispatch(retrace, retrace_bindings, push, size.x, size.y); });
-    const gpu::Buffer* visible = &outcome;
-    commands.makeVisibleToHost(std::span(&visible, 1));
-    commands.submit();
-    commands.wait();
     Outcome result;
-    std::memcpy(&result, outcome.mapped(), sizeof(result));
+    std::memcpy(&result, lookAtFirstHits(scene, size, "retrace", consistency_comp, sizeof(result)).data(),
+                sizeof(result));
     if (scene.instances.empty()) {
         EXPECT_EQ(result.hits, 0U);
         return;
