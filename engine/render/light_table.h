@@ -10,8 +10,9 @@ namespace licht {
 
 /// Everything that next event estimation can pick.
 struct LightTable {
-    std::vector<LightRecord> lights;  ///< triangles (two for a rectangle, all for a round mesh), points and
-                                      ///< spots; then directional, those that fill an angle last; then the sky
+    std::vector<LightRecord>
+        lights;  ///< triangles (two for a rectangle, all for a round mesh), points and
+                 ///< spots; then directional, those that fill an angle last; then the sky
     std::vector<AliasRecord>
         alias;  ///< over the lights or, with a tree, over the tree and each light outside
     std::vector<LightChildRecord> tree;  ///< empty: none
