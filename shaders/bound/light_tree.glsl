@@ -27,7 +27,7 @@ float meanAboveZero(float c, float s) {
     return c >= s ? c : above * above / (4.0 * max(s, kLeastSquare));
 }
 
-// And the cosine of a sine, up to pi / 2.
+// Of an angle up to pi / 2; the cosine of a sine as well.
 float sineOf(float cosine) { return sqrt(max(1.0 - cosine * cosine, 0.0)); }
 
 // How a surface receives light.
@@ -39,10 +39,10 @@ struct Receiver {
     float coat;     // F G / (4 cos_o) of the coat over the base's albedo; 0: Lambertian
 };
 
-// What the lights below a child send to a surface, about, up to a factor that siblings share: their mean over positions in the bounding sphere and over
-// normals. The mean and not the most that they could send, by which Conty Estevez and Kulla pick: bounds of near and wide clusters differ most from what
-// comes, and in a hall of 200 lamps picking by them had twice the variance. It ends at 0 only where nothing can come; within that it keeps
-// a share of the best, for the light in a cluster that is better placed than the mean (shares: the flat optimum there).
+// What the lights below a child send to a surface and it sends on, about, up to a factor that siblings share: their mean over positions in the bounding
+// sphere and over normals. Not the most that it could be, by which Conty Estevez and Kulla pick: bounds of near and wide clusters are furthest from what
+// comes, and in a hall of 200 lamps picks by them had three times the variance. It is 0 only where nothing can come; elsewhere a share of the best is
+// kept for the light that is better placed than the mean of its cluster.
 float lightImportance(LightChildRecord c, Receiver r) {
     vec3 d = c.centre - r.position;
     float d2 = dot(d, d);
