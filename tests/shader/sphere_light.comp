@@ -34,12 +34,13 @@ void main() {
     from.error_bound = place.error_bound;
     from.face_normal = place.normal;
     from.frame = frameFromNormal(place.normal);
-    LightSample light = sampleLight(from, g_address, 0u);
+    LightAsker asker = LightAsker(place.position, packOctahedral(place.normal), 0u, 0u);
+    LightSample light = sampleLight(from, asker, g_address, 0u);
     RayQuery ray = RayQuery(offsetOrigin(from, light.direction), light.direction, light.t_max, light.valid, light.target, light.t_enough);
     bool arrives = light.valid && lightArrives(ray);
     if (!light.valid) ray = RayQuery(place.position, place.normal, uintBitsToFloat(0x7f800000u), true, kNoIndex, 0.0);
     Hit met = trace(ray.origin, ray.direction, ray.t_max, false);
     float looked_up = 0.0;
-    if (met.instance != kNoIndex) looked_up = pdfOfSurface(surfaceAt(met, -normalize(ray.direction)), askerAt(from));
+    if (met.instance != kNoIndex) looked_up = pdfOfSurface(surfaceAt(met, -normalize(ray.direction)), asker);
     answers[i] = Answer(light.direction, light.valid ? light.pdf : 0.0, looked_up, light.target, met.instance, arrives ? 1u : 0u);
 }
