@@ -82,12 +82,27 @@ std::vector<double> environmentShares(const Environment& environment) {
     return shares;
 }
 
-EnvironmentTable buildEnvironmentTable(const Environment& environment, EnvironmentSampling how) {
+std::vector<double> sharesAboveMean(const Environment& environment) {
+    // What rounding leaves of a constant sky is far below.
+    constexpr double kNothing = 1e-9;
     const int width = environment.radiance.width;
     const int height = environment.radiance.height;
+    std::vector<double> shares = environmentShares(environment);
+    double total = 0.0;
+    for (std::size_t i = 0; i < shares.size(); ++i) {
+        const int row = static_cast<int>(i / static_cast<std::size_t>(width));
+        shares[i] = std::max(shares[i] - solidAngle(row, width, height) / (4.0 * std::numbers::pi), 0.0);
+        total += shares[i];
+    }
+    for (double& share : shares) share = total > kNothing ? share / total : 0.0;
+    return shares;
+}
+
+EnvironmentTable buildEnvironmentTable(const std::vector<double>& shares, int width,
+                                       EnvironmentSampling how) {
     const auto columns = static_cast<std::size_t>(width);
-    const auto rows = static_cast<std::size_t>(height);
-    const std::vector<double> shares = environmentShares(environment);
+    const std::size_t rows = shares.size() / columns;
+    const int height = static_cast<int>(rows);
     EnvironmentTable table;
     double peak = 0.0;
     for (std::size_t i = 0; i < shares.size(); ++i)

@@ -11,6 +11,12 @@ namespace licht {
 /// over the texel, by solid angle. Sums to one; a map without light: all zero.
 std::vector<double> environmentShares(const Environment& environment);
 
+/// What the shares have above those of a sky of the same mean, again summing to one: enough to draw by where
+/// scattering is sampled as well and finds the rest. All zero where nothing stands out, as in a constant sky.
+/// Karlik, Sik, Vevoda, Skrivan and Krivanek 2019, MIS Compensation: Optimizing Sampling Techniques in
+/// Multiple Importance Sampling.
+std::vector<double> sharesAboveMean(const Environment& environment);
+
 /// What drawing directions by these shares takes, as an image of unsigned words;
 /// shaders/bound/environment.glsl reads it.
 struct EnvironmentTable {
@@ -22,7 +28,8 @@ struct EnvironmentTable {
 
 /// alias and rejection: an alias table over the texels, an AliasRecord a texel. inversion: the distribution
 /// function of the texels of each row, and in one more column that of the rows, in units of 2^-31. What the
-/// shaders take for the probability of a texel is what the table does; no texel with light has none.
-EnvironmentTable buildEnvironmentTable(const Environment& environment, EnvironmentSampling how);
+/// shaders take for the probability of a texel is what the table does; no texel with a share has none.
+/// `shares` of a map of so many columns.
+EnvironmentTable buildEnvironmentTable(const std::vector<double>& shares, int width, EnvironmentSampling how);
 
 }  // namespace licht

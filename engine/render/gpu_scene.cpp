@@ -304,7 +304,18 @@ void GpuScene::uploadTexels(const Scene& scene) {
 
 void GpuScene::uploadLights(const Scene& scene, const Effects& effects, const InstanceOrder& order,
                             const Options& options, std::vector<uint>& first_light) {
-    LightTable table = buildLightTable(scene, effects, options.sample_surfaces_and_sky, options.lights);
+    const bool present = effects.has(kEffectEnvironment) && scene.environment;
+    const EnvironmentTable drawn =
+        present ? buildEnvironmentTable(options.direct == DirectLight::area
+                                            ? environmentShares(*scene.environment)
+                                            : sharesAboveMean(*scene.environment),
+                                        scene.environment->radiance.width, options.environment_sampling)
+                : EnvironmentTable{};
+    const bool not_by_scattering_alone = options.direct != DirectLight::hemisphere;
+    LightTable table = buildLightTable(
+        scene, effects,
+        {.surfaces_and_suns = not_by_scattering_alone, .sky = not_by_scattering_alone && drawn.peak > 0.0F},
+        options.lights);
     for (LightRecord& light : table.lights)
         if (isShape(light)) light.instance = order.device_instance[light.instance];
     first_light = std::move(table.first_light);
@@ -317,13 +328,9 @@ void GpuScene::uploadLights(const Scene& scene, const Effects& effects, const In
     if (!table.lights.empty()) lights_ = upload("lights", table.lights, kFetched);
     if (light_slots_ > 0) light_alias_ = upload("light_alias", table.alias, kFetched);
     environment_light_ = table.environment_light;
-    const bool present = effects.has(kEffectEnvironment) && scene.environment;
     has_sky_ = scene.environment ? 1U : 0U;
     const Image black(1, 1, 3);
     const Image& map = present ? scene.environment->radiance : black;
-    const EnvironmentTable drawn =
-        present ? buildEnvironmentTable(*scene.environment, options.environment_sampling)
-                : EnvironmentTable{};
     const uint limit = device_->limits().maxImageDimension2D;
     if (std::max({static_cast<uint>(map.width), static_cast<uint>(map.height), drawn.size.x}) > limit)
         throw InputError(

@@ -21,7 +21,7 @@ struct InstanceOrder;
 class GpuScene {
 public:
     struct Options {
-        bool sample_surfaces_and_sky = true;
+        DirectLight direct = DirectLight::mis;
         bool storage_buffers = false;
         BvhQuality bvh_quality = BvhQuality::balanced;
         LightChoice lights = LightChoice::tree;

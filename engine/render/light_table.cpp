@@ -240,7 +240,7 @@ bool isShape(const LightRecord& light) {
     return kind == kLightTriangle || kind == kLightRectangle || kind == kLightSphere;
 }
 
-LightTable buildLightTable(const Scene& scene, const Effects& effects, bool sample_surfaces_and_sky,
+LightTable buildLightTable(const Scene& scene, const Effects& effects, const Pickable& pickable,
                            LightChoice choice) {
     LightTable table;
     table.first_light.assign(scene.instances.size(), kNoIndex);
@@ -248,7 +248,7 @@ LightTable buildLightTable(const Scene& scene, const Effects& effects, bool samp
     std::vector<std::size_t> kind_ends{0};
     const auto endKind = [&] { kind_ends.push_back(weights.size()); };
 
-    if (effects.has(kEffectLightTriangles) && sample_surfaces_and_sky)
+    if (effects.has(kEffectLightTriangles) && pickable.surfaces_and_suns)
         addShapes(scene, effects.has(kEffectLightSpheres), table, weights);
     const std::size_t shapes = weights.size();
     const bool punctual = effects.has(kEffectPunctualLights);
@@ -259,7 +259,7 @@ LightTable buildLightTable(const Scene& scene, const Effects& effects, bool samp
                 fillsAngle(light) != disc)
                 continue;
             table.lights.push_back(punctualRecord(light));
-            weights.push_back(disc && !sample_surfaces_and_sky ? 0.0 : flux(light, radius));
+            weights.push_back(disc && !pickable.surfaces_and_suns ? 0.0 : flux(light, radius));
         }
     };
     addPunctual(false, false);
@@ -273,7 +273,7 @@ LightTable buildLightTable(const Scene& scene, const Effects& effects, bool samp
     addPunctual(true, true);
     table.suns = static_cast<uint>(table.lights.size()) - table.first_sun;
     endKind();
-    if (effects.has(kEffectEnvironment) && sample_surfaces_and_sky && scene.environment) {
+    if (effects.has(kEffectEnvironment) && pickable.sky && scene.environment) {
         table.environment_light = static_cast<uint>(table.lights.size());
         LightRecord light{};
         light.kind = kLightEnvironment;

@@ -26,11 +26,17 @@ struct LightTable {
 /// A triangle, rectangle or round mesh that emits.
 bool isShape(const LightRecord& light);
 
+/// What is picked beside the lights that scattering cannot find.
+struct Pickable {
+    bool surfaces_and_suns = true;
+    bool sky = true;
+};
+
 /// The kinds of light (triangles, punctual, environment; or the tree, directional, environment) share the
 /// picks equally, because their powers say nothing of how much of each reaches a given place; within a kind
 /// the share is by the choice. A tree takes at least two lights that are somewhere; with fewer the choice is
-/// by power. `sample_surfaces_and_sky` false: only lights that scattering cannot find are picked.
-LightTable buildLightTable(const Scene& scene, const Effects& effects, bool sample_surfaces_and_sky,
+/// by power.
+LightTable buildLightTable(const Scene& scene, const Effects& effects, const Pickable& pickable,
                            LightChoice choice);
 
 }  // namespace licht

@@ -107,8 +107,7 @@ struct Renderer::State {
           effects(effectsOf(scene, s)),
           upload_start(Clock::now()),
           gpu_scene(d, scene, effects,
-                    {s.direct != DirectLight::hemisphere, s.storage_buffers, s.bvh_quality, s.lights,
-                     s.environment_sampling}),
+                    {s.direct, s.storage_buffers, s.bvh_quality, s.lights, s.environment_sampling}),
           frame_buffer(d, "frame", sizeof(FrameRecord), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
                        gpu::Memory::host_write),
           slots{Slot(d, "counters 0"), Slot(d, "counters 1")} {

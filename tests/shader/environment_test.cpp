@@ -109,6 +109,10 @@ std::string nameOf(EnvironmentSampling how) {
                                                    : "rejection";
 }
 
+EnvironmentTable tableOf(const Environment& environment, EnvironmentSampling how) {
+    return buildEnvironmentTable(environmentShares(environment), environment.radiance.width, how);
+}
+
 class OnDevice {
 public:
     /// sampler: kSampler...
@@ -121,7 +125,7 @@ public:
                    VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE) {
         gpu::Device& device = gpu::testDevice();
         const Image& map = environment.radiance;
-        const EnvironmentTable table = buildEnvironmentTable(environment, how);
+        const EnvironmentTable table = tableOf(environment, how);
         FrameRecord frame{};
         frame.environment_size = uvec2(map.width, map.height);
         frame.environment_peak = table.peak;
@@ -231,8 +235,8 @@ TEST(EnvironmentTable, constantMapIsTheSolidAngle) {
     constexpr std::size_t kWidth = 4200;
     constexpr std::size_t kHeight = 4000;
     const Environment environment = filled("constant", kWidth, kHeight, 1.0F);
-    const EnvironmentTable alias = buildEnvironmentTable(environment, EnvironmentSampling::alias);
-    const EnvironmentTable ends = buildEnvironmentTable(environment, EnvironmentSampling::inversion);
+    const EnvironmentTable alias = tableOf(environment, EnvironmentSampling::alias);
+    const EnvironmentTable ends = tableOf(environment, EnvironmentSampling::inversion);
     EXPECT_NEAR(d(alias.peak), 0.25 / kPi, 1e-6);
     EXPECT_EQ(alias.peak, ends.peak);
     const std::vector<double> by_alias = tableShares(alias, kWidth, kHeight);
@@ -257,7 +261,7 @@ TEST(EnvironmentTable, constantMapIsTheSolidAngle) {
 TEST(EnvironmentTable, blackMapsHaveNoShares) {
     const Environment black = filled("black", 16, 8, 0.0F);
     for (const EnvironmentSampling how : kMethods) {
-        const EnvironmentTable table = buildEnvironmentTable(black, how);
+        const EnvironmentTable table = tableOf(black, how);
         EXPECT_EQ(table.peak, 0.0F);
         for (const double share : tableShares(table, 16, 8)) ASSERT_EQ(share, 0.0) << nameOf(how);
         for (const Answer& answer : OnDevice(black, how).sample()) {
@@ -273,16 +277,49 @@ TEST(EnvironmentTable, everyTexelWithLightHasAShare) {
     set(environment, 200, 100, 1e6F);
     set(environment, 7, 0, 0.0F);
     for (const EnvironmentSampling how : {EnvironmentSampling::alias, EnvironmentSampling::inversion})
-        for (const double share : tableShares(buildEnvironmentTable(environment, how), 256, 128))
+        for (const double share : tableShares(tableOf(environment, how), 256, 128))
             ASSERT_GT(share, 0.0) << nameOf(how);
     const Environment texel = singleTexel(1.0F);
     const std::vector<double> shares = environmentShares(texel);
     for (const EnvironmentSampling how : kMethods) {
         const std::vector<double> kept =
-            tableShares(buildEnvironmentTable(texel, how), static_cast<std::size_t>(texel.radiance.width),
+            tableShares(tableOf(texel, how), static_cast<std::size_t>(texel.radiance.width),
                         shares.size() / static_cast<std::size_t>(texel.radiance.width));
         for (std::size_t i = 0; i < shares.size(); ++i)
             ASSERT_EQ(kept[i] > 0.0, shares[i] > 0.0) << nameOf(how);
+    }
+}
+
+// Twice as bright above as below: all of the draws go up, and there by solid angle; the two rows that the
+// map's interpolation blends are neither.
+TEST(SharesAboveMean, areWhatStandsOut) {
+    constexpr int kWidth = 64;
+    constexpr int kHeight = 32;
+    Environment halves = filled("halves", kWidth, kHeight, 1.0F);
+    for (int y = 0; y < kHeight / 2; ++y)
+        for (int x = 0; x < kWidth; ++x) set(halves, x, y, 2.0F);
+    const std::vector<double> shares = sharesAboveMean(halves);
+    // The mean is 1.5. The row at the border holds 7/8 * 2 + 1/8: three quarters of what the others have
+    // above.
+    const double border = kWidth * solidAngle(kHeight / 2 - 1, kWidth, kHeight);
+    const double above = 2.0 * kPi - border + 0.75 * border;
+    double sum = 0.0;
+    for (std::size_t i = 0; i < shares.size(); ++i) {
+        const std::size_t row = i / kWidth;
+        const double angle = solidAngle(row, kWidth, kHeight);
+        const double expected = row + 1 < kHeight / 2    ? angle / above
+                                : row + 1 == kHeight / 2 ? 0.75 * angle / above
+                                                         : 0.0;
+        EXPECT_NEAR(shares[i], expected, 1e-12) << row;
+        sum += shares[i];
+    }
+    EXPECT_NEAR(sum, 1.0, 1e-12);
+}
+
+TEST(SharesAboveMean, areNoneUnderAConstantSky) {
+    for (const int width : {1, 7, 256, 4200}) {
+        const Environment sky = filled("constant", width, std::max(width / 2, 1), 0.3F);
+        for (const double share : sharesAboveMean(sky)) ASSERT_EQ(share, 0.0) << width;
     }
 }
 
@@ -293,8 +330,7 @@ TEST_P(EveryMethod, directionsFollowTheTable) {
         const auto width = static_cast<std::size_t>(environment.radiance.width);
         const auto height = static_cast<std::size_t>(environment.radiance.height);
         OnDevice device(environment, GetParam());
-        const std::vector<double> shares =
-            tableShares(buildEnvironmentTable(environment, GetParam()), width, height);
+        const std::vector<double> shares = tableShares(tableOf(environment, GetParam()), width, height);
         // Four cells a texel: within it directions are uniform by solid angle.
         std::vector<std::uint64_t> counts(4 * width * height);
         std::vector<double> expected(counts.size());
@@ -458,7 +494,7 @@ TEST(Methods, haveTheSameMean) {
 // Tries follow the geometric law with the chance 1 / (4 pi peak), cut off after the last.
 TEST(Rejection, triesAreAsTheLawSays) {
     for (const Environment& environment : environments()) {
-        const double peak = d(buildEnvironmentTable(environment, EnvironmentSampling::rejection).peak);
+        const double peak = d(tableOf(environment, EnvironmentSampling::rejection).peak);
         const double chance = 0.25 / (kPi * peak);
         const double refused = std::pow(1.0 - chance, double{kEnvironmentMostTries});
         const double mean = (1.0 - refused) / chance;

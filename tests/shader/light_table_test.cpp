@@ -65,7 +65,7 @@ Mesh roundMesh() {
 }
 
 LightTable tableOf(const Scene& scene, LightChoice choice) {
-    return buildLightTable(scene, detectEffects(scene), true, choice);
+    return buildLightTable(scene, detectEffects(scene), {}, choice);
 }
 
 double sumOfPmf(const LightTable& table) {
@@ -147,7 +147,8 @@ TEST(LightTable, SunsStandTogetherAndArePickedOnlyWhereLightsAreSampled) {
         scene.environment = constantEnvironment(vec3(1.0F));
         for (const bool sampled : {true, false}) {
             for (const LightChoice choice : {LightChoice::tree, LightChoice::power, LightChoice::uniform}) {
-                const LightTable table = buildLightTable(scene, detectEffects(scene), sampled, choice);
+                const LightTable table =
+                    buildLightTable(scene, detectEffects(scene), {sampled, sampled}, choice);
                 ASSERT_EQ(table.suns, 2U);
                 EXPECT_NEAR(sumOfPmf(table), 1.0, 1e-6);
                 for (uint i = 0; i < table.lights.size(); ++i) {
@@ -163,7 +164,7 @@ TEST(LightTable, SunsStandTogetherAndArePickedOnlyWhereLightsAreSampled) {
     }
     Scene alone;
     alone.lights = {sun};
-    const LightTable found = buildLightTable(alone, detectEffects(alone), false, LightChoice::tree);
+    const LightTable found = buildLightTable(alone, detectEffects(alone), {false, false}, LightChoice::tree);
     EXPECT_TRUE(found.alias.empty());
     ASSERT_EQ(found.lights.size(), 1U);
     EXPECT_EQ(found.first_sun, 0U);
@@ -213,7 +214,7 @@ TEST(LightTable, ARoundMeshIsOneLight) {
     Effects effects = detectEffects(scene);
     ASSERT_TRUE(effects.has(kEffectLightSpheres));
     const auto tableOfChoice = [&](LightChoice choice) {
-        return buildLightTable(scene, effects, true, choice);
+        return buildLightTable(scene, effects, {}, choice);
     };
     for (const LightChoice choice : {LightChoice::tree, LightChoice::power, LightChoice::uniform}) {
         const LightTable table = tableOfChoice(choice);
