@@ -337,6 +337,35 @@ TEST(Sun, OrdersSumToThePicture) {
     EXPECT_NEAR(static_cast<double>(brightest), radianceOfSun(60.0) + 0.1, 1e-5);
 }
 
+// A bright cap in a dull sky: light sampling draws the cap alone where scattering is sampled as well, and all
+// of the sky where it is not. By parts, E / pi = L(horizon) - integral of sin^2 dL; L falls linearly in the
+// angle from the middle of the cap's last row to that of the next.
+TEST(Sky, WhatStandsOutAndWhatDoesNotAddUp) {
+    constexpr int kHeight = 32;
+    constexpr int kRows = 8;
+    constexpr double kCap = 6.0;
+    constexpr double kRest = 0.5;
+    Scene scene = sunlit(lambert(0.5F), {});
+    Environment sky{"cap", Image(2 * kHeight, kHeight, 3)};
+    for (std::size_t i = 0; i < sky.radiance.texels.size(); ++i)
+        sky.radiance.texels[i] = static_cast<float>(i < std::size_t{3} * 2 * kHeight * kRows ? kCap : kRest);
+    scene.environment = sky;
+    const double a = (kRows - 0.5) * kPi / kHeight;
+    const double b = (kRows + 0.5) * kPi / kHeight;
+    const double mean_sine2 = 0.5 - 0.25 * (std::sin(2.0 * b) - std::sin(2.0 * a)) / (b - a);
+    const double exact = 0.5 * (kRest + (kCap - kRest) * mean_sine2);
+    for (const DirectLight direct : kEveryDirect) {
+        for (const EnvironmentSampling how :
+             {EnvironmentSampling::inversion, EnvironmentSampling::alias, EnvironmentSampling::rejection}) {
+            SCOPED_TRACE(std::to_string(static_cast<int>(direct)) + ", " +
+                         std::to_string(static_cast<int>(how)));
+            RenderSettings settings = sunSettings(direct);
+            settings.environment_sampling = how;
+            expectMean(renderFilm(scene, downCamera(vec3(0.0F), 0.5F, 3.0F), settings, 64), exact);
+        }
+    }
+}
+
 // Many lights of many kinds: near, far, hidden, facing away, spots. Every choice among them has the same
 // picture.
 TEST(ManyLights, EveryChoiceGivesTheSamePicture) {
