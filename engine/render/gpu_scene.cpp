@@ -311,10 +311,9 @@ void GpuScene::uploadLights(const Scene& scene, const Effects& effects, const In
                                             : sharesAboveMean(*scene.environment),
                                         scene.environment->radiance.width, options.environment_sampling)
                 : EnvironmentTable{};
-    const bool not_by_scattering_alone = options.direct != DirectLight::hemisphere;
+    const bool samples_lights = options.direct != DirectLight::hemisphere;
     LightTable table = buildLightTable(
-        scene, effects,
-        {.surfaces_and_suns = not_by_scattering_alone, .sky = not_by_scattering_alone && drawn.peak > 0.0F},
+        scene, effects, {.surfaces_and_suns = samples_lights, .sky = samples_lights && drawn.peak > 0.0F},
         options.lights);
     for (LightRecord& light : table.lights)
         if (isShape(light)) light.instance = order.device_instance[light.instance];

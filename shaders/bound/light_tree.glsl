@@ -41,7 +41,7 @@ struct Receiver {
 
 // What the lights below a child send to a surface and it sends on, about, up to a factor that siblings share: their mean over positions in the bounding
 // sphere and over normals. Not the most that it could be, by which Conty Estevez and Kulla pick: bounds of near and wide clusters are furthest from what
-// comes, and in a hall of 200 lamps picks by them had three times the variance. It is 0 only where nothing can come; elsewhere a share of the best is
+// comes, and in a hall of 200 lamps picks by them had twice the variance. It is 0 only where nothing can come; elsewhere a share of the best is
 // kept for the light that is better placed than the mean of its cluster.
 float lightImportance(LightChildRecord c, Receiver r) {
     vec3 d = c.centre - r.position;

@@ -5,8 +5,8 @@
 
 LICHT_SHARED_BEGIN
 
-LICHT_CONSTANT uint kEffectTextures = 0u;        // any texture is read
-LICHT_CONSTANT uint kEffectNormalMaps = 1u;      // tangent frames
+LICHT_CONSTANT uint kEffectTextures = 0u;    // any texture is read
+LICHT_CONSTANT uint kEffectNormalMaps = 1u;  // tangent frames
 LICHT_CONSTANT uint kEffectVertexColors = 2u;
 LICHT_CONSTANT uint kEffectExtraUvSets = 3u;     // TEXCOORD_1 and up
 LICHT_CONSTANT uint kEffectAlpha = 4u;           // MASK or BLEND
@@ -16,10 +16,10 @@ LICHT_CONSTANT uint kEffectLightTriangles = 7u;  // emissive triangles worth sam
 LICHT_CONSTANT uint kEffectPunctualLights = 8u;
 LICHT_CONSTANT uint kEffectEnvironment = 9u;
 LICHT_CONSTANT uint kEffectUnlit = 10u;
-LICHT_CONSTANT uint kEffectIridescence = 11u;    // thin films
-LICHT_CONSTANT uint kEffectInstances = 12u;      // meshes that stand in memory once and in the scene often
-LICHT_CONSTANT uint kEffectLightSpheres = 13u;   // round meshes that are sampled as one light each
-LICHT_CONSTANT uint kEffectSuns = 14u;           // directional lights that fill an angle
+LICHT_CONSTANT uint kEffectIridescence = 11u;   // thin films
+LICHT_CONSTANT uint kEffectInstances = 12u;     // meshes that stand in memory once and in the scene often
+LICHT_CONSTANT uint kEffectLightSpheres = 13u;  // round meshes that are sampled as one light each
+LICHT_CONSTANT uint kEffectSuns = 14u;          // directional lights that fill an angle
 LICHT_CONSTANT uint kEffectCount = 15u;
 
 LICHT_SHARED_END

@@ -16,7 +16,7 @@ struct RayRecord {
 struct RayHitRecord {
     uint triangle;  // in the order of the scene's flattened geometry; kNoIndex: nothing; kRayCut: the walk was cut short
     float t;
-    float b1;       // barycentric weights of the second and third vertex
+    float b1;  // barycentric weights of the second and third vertex
     float b2;
 };
 
@@ -24,11 +24,11 @@ LICHT_CONSTANT uint kRayCut = 0xfffffffeu;
 
 // The lists that the recording program fills, one ray a pixel each.
 LICHT_CONSTANT uint kRaysPrimary = 0u;
-LICHT_CONSTANT uint kRaysFirstShadow = 1u;   // from the first hit to a sampled light
-LICHT_CONSTANT uint kRaysFirstBounce = 2u;   // scattered at the first hit
+LICHT_CONSTANT uint kRaysFirstShadow = 1u;  // from the first hit to a sampled light
+LICHT_CONSTANT uint kRaysFirstBounce = 2u;  // scattered at the first hit
 LICHT_CONSTANT uint kRaysSecondShadow = 3u;
 LICHT_CONSTANT uint kRaysSecondBounce = 4u;
-LICHT_CONSTANT uint kRaysGlossy = 5u;        // leaving the first hit by a GGX lobe of kRecordedRoughness
+LICHT_CONSTANT uint kRaysGlossy = 5u;  // leaving the first hit by a GGX lobe of kRecordedRoughness
 LICHT_CONSTANT uint kRayLists = 6u;
 LICHT_CONSTANT uint kRecordedBounces = 2u;
 

@@ -6,16 +6,16 @@
 #include <cmath>
 #include <cstdint>
 #include <glm/glm.hpp>
-#define LICHT_SHARED_BEGIN \
-    namespace licht {      \
-    using uint = std::uint32_t;     \
-    using glm::mat4;       \
-    using std::pow;        \
-    using glm::uvec2;      \
-    using glm::uvec3;      \
-    using glm::uvec4;      \
-    using glm::vec2;       \
-    using glm::vec3;       \
+#define LICHT_SHARED_BEGIN      \
+    namespace licht {           \
+    using uint = std::uint32_t; \
+    using glm::mat4;            \
+    using std::pow;             \
+    using glm::uvec2;           \
+    using glm::uvec3;           \
+    using glm::uvec4;           \
+    using glm::vec2;            \
+    using glm::vec3;            \
     using glm::vec4;
 #define LICHT_SHARED_END }
 #define LICHT_CONSTANT inline constexpr

@@ -15,6 +15,7 @@
 #include "licht/scenes/shapes.h"
 #include "support/gpu_test.h"
 #include "support/render_test.h"
+#include "support/slope.h"
 
 namespace licht {
 namespace {
@@ -63,15 +64,9 @@ std::vector<Error> errors(Sequence sampler, DirectLight direct, const Film& refe
 }
 
 double slope(const std::vector<Error>& errors) {
-    const double middle = 0.5 * (static_cast<double>(errors.size()) - 1.0);
-    double xy = 0.0;
-    double xx = 0.0;
-    for (std::size_t i = 0; i < errors.size(); ++i) {
-        const double x = static_cast<double>(i) - middle;
-        xy += x * std::log2(errors[i].found);
-        xx += x * x;
-    }
-    return xy / xx;
+    std::vector<double> found;
+    for (const Error& error : errors) found.push_back(error.found);
+    return slopeOf(found);
 }
 
 // Errors of 576 independent pixels are known to 3 %, 0.043 in log2. Over seven octaves whose errors share

@@ -15,6 +15,7 @@
 #include "licht/core/math.h"
 #include "licht/shared/records.h"
 #include "licht/spirv/sampler_comp.h"
+#include "support/slope.h"
 
 namespace licht {
 namespace {
@@ -438,25 +439,12 @@ Convergence converge(std::uint32_t sampler, unsigned from, unsigned to) {
     return result;
 }
 
-/// Least squares line of log2(error) over log2(samples).
-double slope(const std::vector<double>& errors) {
-    const double middle = 0.5 * (static_cast<double>(errors.size()) - 1.0);
-    double xy = 0.0;
-    double xx = 0.0;
-    for (std::size_t i = 0; i < errors.size(); ++i) {
-        const double x = static_cast<double>(i) - middle;
-        xy += x * std::log2(errors[i]);
-        xx += x * x;
-    }
-    return xy / xx;
-}
-
 // The law of large numbers. Each error is known to 1 / sqrt(2 * 512), 0.045 in log2; the slope over 12
 // octaves to 0.01 at most.
 TEST(Convergence, randomNumbersGainTheSquareRoot) {
     const Convergence c = converge(kSamplerRandom, 4, 16);
-    EXPECT_NEAR(slope(c.smooth), -0.5, 0.05);
-    EXPECT_NEAR(slope(c.disc), -0.5, 0.05);
+    EXPECT_NEAR(slopeOf(c.smooth), -0.5, 0.05);
+    EXPECT_NEAR(slopeOf(c.disc), -0.5, 0.05);
     const double deviation = 0.44 / 4.0;  // of the bump: (6/5)^2 - 1 = 0.44
     EXPECT_NEAR(c.smooth[0], std::sqrt(0.44) / 4.0, 4.5 * deviation * 0.045 * 2.0);
 }
@@ -466,10 +454,10 @@ TEST(Convergence, randomNumbersGainTheSquareRoot) {
 TEST(Convergence, sobolGainsMore) {
     for (const std::uint32_t sampler : {kSamplerSobol, kSamplerBlue}) {
         const Convergence c = converge(sampler, 4, 12);
-        RecordProperty("smooth_" + nameOf(sampler), std::to_string(slope(c.smooth)));
-        RecordProperty("disc_" + nameOf(sampler), std::to_string(slope(c.disc)));
-        EXPECT_LT(slope(c.smooth), -1.3) << nameOf(sampler);
-        EXPECT_NEAR(slope(c.disc), -0.75, 0.05) << nameOf(sampler);
+        RecordProperty("smooth_" + nameOf(sampler), std::to_string(slopeOf(c.smooth)));
+        RecordProperty("disc_" + nameOf(sampler), std::to_string(slopeOf(c.disc)));
+        EXPECT_LT(slopeOf(c.smooth), -1.3) << nameOf(sampler);
+        EXPECT_NEAR(slopeOf(c.disc), -0.75, 0.05) << nameOf(sampler);
         // Never worse than independent numbers.
         EXPECT_LT(c.smooth[0], std::sqrt(0.44) / 4.0);
     }
