@@ -11,11 +11,13 @@ if(LICHT_SANITIZE)
   add_link_options(-fsanitize=${LICHT_SANITIZE})
 endif()
 
-# licht_include_root(TARGET SCOPE NAME FOLDER): FOLDER's headers become <licht/NAME/...> for TARGET and its users.
+# licht_include_root(TARGET SCOPE NAME FOLDER): FOLDER's headers become <NAME/...> for TARGET and its users. The library's names are
+# licht/FOLDER, which are those of engine/ (and of shaders/shared); the samples' are samples/FOLDER, as they lie there.
 function(licht_include_root target scope name folder)
   set(root ${PROJECT_BINARY_DIR}/floors/${name})
-  file(MAKE_DIRECTORY ${root}/licht)
-  file(CREATE_LINK ${folder} ${root}/licht/${name} SYMBOLIC)
+  get_filename_component(parent ${root}/${name} DIRECTORY)
+  file(MAKE_DIRECTORY ${parent})
+  file(CREATE_LINK ${folder} ${root}/${name} SYMBOLIC)
   target_include_directories(${target} ${scope} $<BUILD_INTERFACE:${root}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
 endfunction()
 
@@ -26,7 +28,7 @@ function(licht_floor name)
   add_library(licht_${name} STATIC ${sources})
   add_library(licht::${name} ALIAS licht_${name})
   set_target_properties(licht_${name} PROPERTIES EXPORT_NAME ${name})
-  licht_include_root(licht_${name} PUBLIC ${name} ${CMAKE_CURRENT_SOURCE_DIR})
+  licht_include_root(licht_${name} PUBLIC licht/${name} ${CMAKE_CURRENT_SOURCE_DIR})
   target_compile_features(licht_${name} PUBLIC cxx_std_20)
   target_link_libraries(licht_${name} PUBLIC ${arg_LINKS} PRIVATE ${arg_PRIVATE_LINKS} $<BUILD_INTERFACE:licht_warnings>)
   set_property(GLOBAL APPEND PROPERTY LICHT_FLOORS licht_${name})

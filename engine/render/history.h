@@ -1,6 +1,6 @@
 #pragma once
+#include "licht/core/math.h"
 #include "licht/gpu/commands.h"
-#include "licht/render/renderer.h"
 
 namespace licht {
 

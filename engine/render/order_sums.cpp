@@ -9,6 +9,7 @@
 
 #include "licht/core/error.h"
 #include "licht/gpu/commands.h"
+#include "licht/shared/frame.h"
 
 namespace licht {
 namespace {

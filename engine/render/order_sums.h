@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
+#include "licht/film/film.h"
 #include "licht/gpu/resource.h"
-#include "licht/render/renderer.h"
 
 namespace licht {
 

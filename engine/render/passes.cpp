@@ -1,5 +1,8 @@
 #include "licht/render/passes.h"
 
+#include "licht/shared/frame.h"
+#include "licht/shared/index.h"
+
 namespace licht {
 
 using gpu::Access;

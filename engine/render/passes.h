@@ -2,8 +2,9 @@
 // The passes of a frame. Each is a function that records one pass: what it reads, what it writes, what it
 // runs.
 #include "licht/gpu/commands.h"
-#include "licht/render/gpu_scene.h"
+#include "licht/on_device/gpu_scene.h"
 #include "licht/render/history.h"
+#include "licht/shared/frame.h"
 
 namespace licht {
 

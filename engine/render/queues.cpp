@@ -5,7 +5,8 @@
 #include <algorithm>
 
 #include "licht/core/error.h"
-#include "licht/render/lanes.h"
+#include "licht/gpu/lanes.h"
+#include "licht/shared/constants.h"
 #include "licht/shared/queue_records.h"
 #include "licht/shared/ray_records.h"
 #include "licht/spirv/queue_finish_comp.h"

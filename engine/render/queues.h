@@ -5,7 +5,7 @@
 
 #include "licht/gpu/commands.h"
 #include "licht/render/history.h"
-#include "licht/shared/records.h"
+#include "licht/shared/frame.h"
 
 namespace licht {
 

@@ -8,17 +8,22 @@
 #include <optional>
 
 #include "licht/core/error.h"
+#include "licht/film/develop.h"
+#include "licht/gpu/lanes.h"
 #include "licht/gpu/upload_image.h"
-#include "licht/render/adaptive.h"
-#include "licht/render/film.h"
-#include "licht/render/gpu_scene.h"
+#include "licht/on_device/gpu_scene.h"
+#include "licht/render/adaptive_rounds.h"
 #include "licht/render/history.h"
-#include "licht/render/lanes.h"
 #include "licht/render/order_sums.h"
 #include "licht/render/passes.h"
 #include "licht/render/programs.h"
 #include "licht/render/queues.h"
 #include "licht/render/view.h"
+#include "licht/shared/constants.h"
+#include "licht/shared/counters.h"
+#include "licht/shared/effects.h"
+#include "licht/shared/frame.h"
+#include "licht/shared/material.h"
 
 namespace licht {
 namespace {

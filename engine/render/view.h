@@ -1,6 +1,6 @@
 #pragma once
 #include "licht/scene/scene.h"
-#include "licht/shared/records.h"
+#include "licht/shared/frame.h"
 
 namespace licht {
 

@@ -6,16 +6,18 @@
 #include <memory>
 #include <span>
 
-#include "licht/command/bench_kind.h"
-#include "licht/command/bench_report.h"
-#include "licht/command/commands.h"
-#include "licht/command/scene_source.h"
 #include "licht/core/file.h"
 #include "licht/core/progress.h"
-#include "licht/render/flat_geometry.h"
-#include "licht/render/gpu_bvh.h"
-#include "licht/render/gpu_scene.h"
-#include "licht/render/ray_recorder.h"
+#include "licht/on_device/flat_geometry.h"
+#include "licht/on_device/gpu_bvh.h"
+#include "licht/on_device/gpu_scene.h"
+#include "licht/probe/ray_recorder.h"
+#include "licht/settings/choices.h"
+#include "licht/shared/index.h"
+#include "samples/licht/bench_kind.h"
+#include "samples/licht/bench_report.h"
+#include "samples/licht/commands.h"
+#include "samples/licht/scene_source.h"
 
 namespace licht {
 namespace {

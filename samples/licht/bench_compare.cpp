@@ -1,10 +1,10 @@
-#include "licht/command/bench_compare.h"
+#include "samples/licht/bench_compare.h"
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 
-#include "licht/shared/records.h"
+#include "licht/shared/index.h"
 
 namespace licht {
 

@@ -1,13 +1,13 @@
-#include "licht/command/bench_kind.h"
+#include "samples/licht/bench_kind.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <ctime>
 
-#include "licht/command/bench_compare.h"
-#include "licht/render/lanes.h"
-#include "licht/render/ray_tracer.h"
+#include "licht/gpu/lanes.h"
+#include "licht/probe/ray_tracer.h"
+#include "samples/licht/bench_compare.h"
 
 namespace licht {
 namespace {

@@ -3,10 +3,10 @@
 #include <span>
 
 #include "licht/bvh/bvh.h"
-#include "licht/command/bench_report.h"
-#include "licht/render/gpu_bvh.h"
-#include "licht/render/ray_recorder.h"
-#include "licht/yardstick/yardstick.h"
+#include "licht/on_device/gpu_bvh.h"
+#include "licht/probe/ray_recorder.h"
+#include "samples/licht/bench_report.h"
+#include "samples/yardstick/yardstick.h"
 
 namespace licht {
 

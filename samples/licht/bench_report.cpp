@@ -1,4 +1,4 @@
-#include "licht/command/bench_report.h"
+#include "samples/licht/bench_report.h"
 
 #include <fmt/format.h>
 

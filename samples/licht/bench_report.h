@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "licht/command/bench_samples.h"
-#include "licht/render/renderer.h"
+#include "licht/core/math.h"
+#include "samples/licht/bench_samples.h"
 
 namespace licht {
 

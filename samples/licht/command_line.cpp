@@ -1,4 +1,4 @@
-#include "licht/command/command_line.h"
+#include "samples/licht/command_line.h"
 
 #include <fmt/format.h>
 
@@ -6,10 +6,11 @@
 #include <algorithm>
 #include <limits>
 
-#include "licht/command/pilot.h"
-#include "licht/command/text.h"
 #include "licht/core/error.h"
-#include "licht/scenes/builtin.h"
+#include "licht/run/pilot.h"
+#include "licht/settings/settings.h"
+#include "samples/licht/text.h"
+#include "samples/scenes/builtin.h"
 
 namespace licht {
 namespace {

@@ -2,7 +2,7 @@
 #include <string>
 #include <variant>
 
-#include "licht/command/options.h"
+#include "samples/licht/options.h"
 
 namespace licht {
 

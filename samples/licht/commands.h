@@ -1,6 +1,6 @@
 #pragma once
 // The subcommands. Each throws InputError or DeviceError and returns the exit code otherwise.
-#include "licht/command/options.h"
+#include "samples/licht/options.h"
 
 namespace licht {
 

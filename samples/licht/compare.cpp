@@ -1,4 +1,4 @@
-#include "licht/command/compare.h"
+#include "samples/licht/compare.h"
 
 #include <fmt/format.h>
 
@@ -8,11 +8,11 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
-#include "licht/command/commands.h"
 #include "licht/core/error.h"
 #include "licht/core/file.h"
 #include "licht/image/exr.h"
 #include "licht/measure/metrics.h"
+#include "samples/licht/commands.h"
 
 namespace licht {
 namespace {

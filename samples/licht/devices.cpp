@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "licht/command/commands.h"
 #include "licht/core/error.h"
 #include "licht/gpu/device.h"
+#include "samples/licht/commands.h"
 
 namespace licht {
 namespace {

@@ -1,4 +1,4 @@
-#include "licht/command/exr_layers.h"
+#include "samples/licht/exr_layers.h"
 
 #include <fmt/format.h>
 

@@ -3,9 +3,9 @@
 #include <utility>
 #include <vector>
 
-#include "licht/command/options.h"
+#include "licht/film/film.h"
 #include "licht/image/exr.h"
-#include "licht/render/renderer.h"
+#include "samples/licht/options.h"
 
 namespace licht {
 

@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
-#include "licht/command/commands.h"
-#include "licht/command/scene_source.h"
 #include "licht/scene/describe.h"
+#include "samples/licht/commands.h"
+#include "samples/licht/scene_source.h"
 
 namespace licht {
 

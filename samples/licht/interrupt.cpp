@@ -1,4 +1,4 @@
-#include "licht/command/interrupt.h"
+#include "samples/licht/interrupt.h"
 
 #include <array>
 #include <cassert>

@@ -4,10 +4,10 @@
 #include <exception>
 #include <new>
 
-#include "licht/command/command_line.h"
-#include "licht/command/commands.h"
-#include "licht/command/text.h"
 #include "licht/core/error.h"
+#include "samples/licht/command_line.h"
+#include "samples/licht/commands.h"
+#include "samples/licht/text.h"
 
 namespace {
 

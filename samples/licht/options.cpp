@@ -1,4 +1,4 @@
-#include "licht/command/options.h"
+#include "samples/licht/options.h"
 
 #include <fmt/format.h>
 
@@ -8,58 +8,18 @@
 #include <cassert>
 #include <charconv>
 #include <cmath>
+#include <span>
 #include <utility>
 
-#include "licht/command/text.h"
 #include "licht/core/error.h"
-#include "licht/scenes/builtin.h"
+#include "licht/settings/choices.h"
+#include "samples/licht/text.h"
+#include "samples/scenes/builtin.h"
 
 namespace licht {
 namespace {
 
 constexpr double kMaxExposure = 64.0;
-
-template <typename Choice>
-struct Named {
-    std::string_view name;
-    Choice choice;
-};
-
-constexpr auto namesOf(Tonemap /*kind*/) {
-    return std::to_array<Named<Tonemap>>({{"none", Tonemap::none},
-                                          {"neutral", Tonemap::neutral},
-                                          {"agx", Tonemap::agx},
-                                          {"aces", Tonemap::aces}});
-}
-constexpr auto namesOf(QueueUse /*kind*/) {
-    return std::to_array<Named<QueueUse>>(
-        {{"auto", QueueUse::automatic}, {"on", QueueUse::on}, {"off", QueueUse::off}});
-}
-constexpr auto namesOf(BvhQuality /*kind*/) {
-    return std::to_array<Named<BvhQuality>>(
-        {{"fast", BvhQuality::fast}, {"balanced", BvhQuality::balanced}, {"best", BvhQuality::best}});
-}
-constexpr auto namesOf(DirectLight /*kind*/) {
-    return std::to_array<Named<DirectLight>>(
-        {{"mis", DirectLight::mis}, {"hemisphere", DirectLight::hemisphere}, {"area", DirectLight::area}});
-}
-constexpr auto namesOf(MisHeuristic /*kind*/) {
-    return std::to_array<Named<MisHeuristic>>(
-        {{"power", MisHeuristic::power}, {"balance", MisHeuristic::balance}});
-}
-constexpr auto namesOf(LightChoice /*kind*/) {
-    return std::to_array<Named<LightChoice>>(
-        {{"tree", LightChoice::tree}, {"power", LightChoice::power}, {"uniform", LightChoice::uniform}});
-}
-constexpr auto namesOf(EnvironmentSampling /*kind*/) {
-    return std::to_array<Named<EnvironmentSampling>>({{"alias", EnvironmentSampling::alias},
-                                                      {"inversion", EnvironmentSampling::inversion},
-                                                      {"rejection", EnvironmentSampling::rejection}});
-}
-constexpr auto namesOf(Sequence /*kind*/) {
-    return std::to_array<Named<Sequence>>(
-        {{"sobol", Sequence::sobol}, {"blue", Sequence::blue}, {"random", Sequence::random}});
-}
 
 [[noreturn]] void refuse(std::string_view option, std::string_view text, std::string_view allowed) {
     throw InputError(fmt::format("{} '{}': must be {}", option, oneLine(text), allowed));
@@ -75,8 +35,9 @@ std::optional<T> wholeNumber(std::string_view text) {
     return value;
 }
 
-template <typename Choice, std::size_t n>
-Choice choose(std::string_view option, std::string_view text, const std::array<Named<Choice>, n>& choices) {
+/// choices: pairs of a name and what it stands for.
+template <typename Choices>
+auto choose(std::string_view option, std::string_view text, const Choices& choices) {
     std::string names;
     for (const auto& [name, choice] : choices) {
         if (name == text) return choice;
@@ -170,16 +131,7 @@ vec3 parseColour(std::string_view option, std::string_view text) {
 
 template <typename Choice>
 Choice parseChoice(std::string_view option, std::string_view text) {
-    return choose(option, text, namesOf(Choice{}));
-}
-
-template <typename Choice>
-std::string_view nameOf(Choice choice) {
-    const auto names = namesOf(choice);
-    const auto found = std::find_if(names.begin(), names.end(),
-                                    [choice](const auto& known) { return known.choice == choice; });
-    assert(found != names.end());
-    return found->name;
+    return choose(option, text, choicesOf<Choice>());
 }
 
 template Tonemap parseChoice(std::string_view, std::string_view);
@@ -190,14 +142,6 @@ template MisHeuristic parseChoice(std::string_view, std::string_view);
 template LightChoice parseChoice(std::string_view, std::string_view);
 template EnvironmentSampling parseChoice(std::string_view, std::string_view);
 template Sequence parseChoice(std::string_view, std::string_view);
-template std::string_view nameOf(Tonemap);
-template std::string_view nameOf(QueueUse);
-template std::string_view nameOf(BvhQuality);
-template std::string_view nameOf(DirectLight);
-template std::string_view nameOf(MisHeuristic);
-template std::string_view nameOf(LightChoice);
-template std::string_view nameOf(EnvironmentSampling);
-template std::string_view nameOf(Sequence);
 
 std::uint32_t blueBitsFor(std::optional<std::uint32_t> samples) {
     constexpr std::uint32_t kUnknown = 4, kMost = 10;
@@ -207,13 +151,13 @@ std::uint32_t blueBitsFor(std::optional<std::uint32_t> samples) {
 
 Layers parseLayers(std::string_view option, std::string_view text) {
     Layers layers;
-    const std::array<Named<bool*>, 7> names{{{"albedo", &layers.aovs.albedo},
-                                             {"normal", &layers.aovs.normal},
-                                             {"depth", &layers.aovs.depth},
-                                             {"motion", &layers.aovs.motion},
-                                             {"variance", &layers.variance},
-                                             {"sampleCount", &layers.sample_count},
-                                             {"bounces", &layers.orders}}};
+    const std::array<std::pair<std::string_view, bool*>, 7> names{{{"albedo", &layers.aovs.albedo},
+                                                                   {"normal", &layers.aovs.normal},
+                                                                   {"depth", &layers.aovs.depth},
+                                                                   {"motion", &layers.aovs.motion},
+                                                                   {"variance", &layers.variance},
+                                                                   {"sampleCount", &layers.sample_count},
+                                                                   {"bounces", &layers.orders}}};
     if (text == "all") {
         for (const auto& [name, wanted] : names) *wanted = true;
         return layers;

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "licht/bvh/bvh.h"
-#include "licht/render/renderer.h"
+#include "licht/settings/settings.h"
 
 namespace licht {
 
@@ -36,9 +36,6 @@ struct Layers {
     bool sample_count = false;
     bool orders = false;  ///< one per order T^i Le
 };
-
-/// Whether paths go through queues; automatic: where that is measured to pay.
-enum class QueueUse { automatic, on, off };
 
 struct RenderOptions {
     SceneRequest source;
@@ -116,13 +113,9 @@ float parsePositiveFloat(std::string_view option, std::string_view text);
 double parseExposure(std::string_view option, std::string_view text);
 /// "R,G,B": finite, not negative.
 vec3 parseColour(std::string_view option, std::string_view text);
-/// One of what can be chosen by name: Tonemap, QueueUse, BvhQuality, DirectLight, MisHeuristic, LightChoice,
-/// EnvironmentSampling, Sequence.
+/// One of what can be chosen by name (settings/choices.h).
 template <typename Choice>
 Choice parseChoice(std::string_view option, std::string_view text);
-/// As parseChoice reads it.
-template <typename Choice>
-std::string_view nameOf(Choice choice);
 /// log2 of the samples that sampler blue spreads well together, for a picture of that many per pixel; 4 where
 /// that is not known.
 std::uint32_t blueBitsFor(std::optional<std::uint32_t> samples);

@@ -1,4 +1,4 @@
-#include "licht/command/orbit_camera.h"
+#include "samples/licht/orbit_camera.h"
 
 #include <algorithm>
 #include <cassert>

@@ -7,20 +7,21 @@
 #include <optional>
 #include <span>
 
-#include "licht/command/adaptive_loop.h"
-#include "licht/command/commands.h"
-#include "licht/command/exr_layers.h"
-#include "licht/command/process_clock.h"
-#include "licht/command/queue_choice.h"
-#include "licht/command/render_loop.h"
-#include "licht/command/report.h"
-#include "licht/command/scene_source.h"
-#include "licht/command/series_report.h"
-#include "licht/command/text.h"
 #include "licht/core/file.h"
+#include "licht/gpu/lanes.h"
 #include "licht/image/files.h"
-#include "licht/render/lanes.h"
+#include "licht/render/renderer.h"
+#include "licht/run/process_clock.h"
+#include "licht/run/queue_choice.h"
+#include "licht/run/render_loop.h"
 #include "licht/shared/queue_records.h"
+#include "samples/licht/commands.h"
+#include "samples/licht/exr_layers.h"
+#include "samples/licht/interrupt.h"
+#include "samples/licht/report.h"
+#include "samples/licht/scene_source.h"
+#include "samples/licht/series_report.h"
+#include "samples/licht/text.h"
 
 namespace licht {
 namespace {
@@ -155,9 +156,11 @@ int render(const RenderOptions& options) {
     InterruptWatch interrupt;
     std::optional<ProgressLine> progress(std::in_place, stderr, options.quiet);
     const StopRules rules = stopRules(options);
+    const LoopHooks hooks{[&interrupt] { return interrupt.asked(); },
+                          [&progress](const ProgressState& state) { progress->show(state); }};
     const LoopResult result = options.settings.adaptive
-                                  ? renderAdaptively(renderer, rules, interrupt, *progress)
-                                  : renderUntil(renderer, report.settings, rules, interrupt, *progress);
+                                  ? renderAdaptively(renderer, rules, hooks)
+                                  : renderUntil(renderer, report.settings, rules, hooks);
     progress.reset();
     interrupt.shield();
 

@@ -1,11 +1,13 @@
-#include "licht/command/report.h"
+#include "samples/licht/report.h"
 
 #include <fmt/format.h>
 #include <sys/resource.h>
 
 #include <nlohmann/json.hpp>
 
-#include "licht/command/series_report.h"
+#include "licht/render/statistics.h"
+#include "licht/settings/choices.h"
+#include "samples/licht/series_report.h"
 
 namespace licht {
 namespace {

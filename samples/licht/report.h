@@ -6,11 +6,14 @@
 #include <utility>
 #include <vector>
 
-#include "licht/command/options.h"
-#include "licht/command/pilot.h"
-#include "licht/command/render_loop.h"
-#include "licht/command/scene_source.h"
+#include "licht/film/film.h"
 #include "licht/gpu/device.h"
+#include "licht/render/statistics.h"
+#include "licht/run/pilot.h"
+#include "licht/run/render_loop.h"
+#include "licht/settings/settings.h"
+#include "samples/licht/options.h"
+#include "samples/licht/scene_source.h"
 
 namespace licht {
 

@@ -1,4 +1,4 @@
-#include "licht/command/scene_source.h"
+#include "samples/licht/scene_source.h"
 
 #include <fmt/format.h>
 
@@ -9,11 +9,11 @@
 #include <filesystem>
 #include <system_error>
 
-#include "licht/command/text.h"
 #include "licht/core/error.h"
 #include "licht/image/files.h"
 #include "licht/scene/gltf.h"
-#include "licht/scenes/builtin.h"
+#include "samples/licht/text.h"
+#include "samples/scenes/builtin.h"
 
 namespace licht {
 namespace {

@@ -3,8 +3,8 @@
 #include <optional>
 #include <string>
 
-#include "licht/command/options.h"
 #include "licht/scene/scene.h"
+#include "samples/licht/options.h"
 
 namespace licht {
 

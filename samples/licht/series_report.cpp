@@ -1,8 +1,11 @@
-#include "licht/command/series_report.h"
+#include "samples/licht/series_report.h"
 
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
+
+#include "licht/film/film.h"
+#include "licht/render/statistics.h"
 
 namespace licht {
 namespace {

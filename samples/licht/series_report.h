@@ -3,7 +3,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "licht/command/report.h"
+#include "samples/licht/report.h"
 
 namespace licht {
 

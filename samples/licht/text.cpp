@@ -1,4 +1,4 @@
-#include "licht/command/text.h"
+#include "samples/licht/text.h"
 
 #include <algorithm>
 

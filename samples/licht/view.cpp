@@ -3,14 +3,16 @@
 #include <algorithm>
 #include <limits>
 
-#include "licht/command/commands.h"
-#include "licht/command/scene_source.h"
-#include "licht/command/stop.h"
-#include "licht/command/view_controls.h"
 #include "licht/core/error.h"
-#include "licht/render/error_estimate.h"
+#include "licht/film/error_estimate.h"
+#include "licht/render/renderer.h"
+#include "licht/run/stop.h"
+#include "licht/settings/choices.h"
 #include "licht/window/swapchain.h"
 #include "licht/window/window.h"
+#include "samples/licht/commands.h"
+#include "samples/licht/scene_source.h"
+#include "samples/licht/view_controls.h"
 
 namespace licht {
 namespace {

@@ -1,7 +1,9 @@
-#include "licht/command/view_controls.h"
+#include "samples/licht/view_controls.h"
 
 #include <array>
 #include <cmath>
+
+#include "licht/settings/settings.h"
 
 namespace licht {
 namespace {

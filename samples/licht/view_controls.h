@@ -1,7 +1,8 @@
 #pragma once
-#include "licht/command/options.h"
-#include "licht/command/orbit_camera.h"
+#include "licht/settings/settings.h"
 #include "licht/window/window.h"
+#include "samples/licht/options.h"
+#include "samples/licht/orbit_camera.h"
 
 namespace licht {
 

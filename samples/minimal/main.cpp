@@ -4,8 +4,9 @@
 #include <vector>
 
 #include "licht/image/files.h"
-#include "licht/render/renderer.h"
+#include "licht/run/render_loop.h"
 #include "licht/scene/gltf.h"
+#include "licht/settings/settings.h"
 
 using namespace licht;
 
@@ -33,9 +34,11 @@ int main(int argument_count, char** arguments) try {
         scene.cameras.empty() ? framingCamera(sceneBounds(scene), 16.0F / 9.0F) : scene.cameras[0];
     gpu::Device device(gpu::DeviceOptions{});
     Renderer renderer(device, scene, camera, settings);
-    for (int sample = 0; sample < 16; ++sample) renderer.renderSample();
+    StopRules rules;
+    rules.samples = 16;
+    const LoopResult result = renderUntil(renderer, settings, rules);
     writePng("minimal.png", renderer.readDisplay(Tonemap::neutral, 0.0F));
-    std::printf("minimal.png: 16 samples, relative error %.3f\n", relativeError(renderer.readFilm()));
+    std::printf("minimal.png: 16 samples, relative error %.3f\n", result.error);
 } catch (const std::exception& error) {
     std::fprintf(stderr, "minimal: %s\n", error.what());
     return 1;

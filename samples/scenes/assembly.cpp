@@ -1,4 +1,4 @@
-#include "licht/scenes/assembly.h"
+#include "samples/scenes/assembly.h"
 
 #include <utility>
 

@@ -1,9 +1,9 @@
-#include "licht/scenes/builtin.h"
+#include "samples/scenes/builtin.h"
 
 #include <algorithm>
 #include <array>
 
-#include "licht/scenes/builtin_scenes.h"
+#include "samples/scenes/builtin_scenes.h"
 
 namespace licht {
 namespace {

@@ -9,9 +9,9 @@
 #include <string>
 #include <utility>
 
-#include "licht/scenes/assembly.h"
-#include "licht/scenes/builtin_scenes.h"
-#include "licht/scenes/shapes.h"
+#include "samples/scenes/assembly.h"
+#include "samples/scenes/builtin_scenes.h"
+#include "samples/scenes/shapes.h"
 
 namespace licht {
 namespace {

@@ -1,5 +1,5 @@
-#include "licht/scenes/assembly.h"
-#include "licht/scenes/builtin_scenes.h"
+#include "samples/scenes/assembly.h"
+#include "samples/scenes/builtin_scenes.h"
 
 namespace licht {
 

@@ -2,9 +2,9 @@
 // form, the radiance after n bounces is the same everywhere in every direction: Le (1 - r^(n+1)) / (1 - r).
 #include <utility>
 
-#include "licht/scenes/assembly.h"
-#include "licht/scenes/builtin_scenes.h"
-#include "licht/scenes/shapes.h"
+#include "samples/scenes/assembly.h"
+#include "samples/scenes/builtin_scenes.h"
+#include "samples/scenes/shapes.h"
 
 namespace licht {
 

@@ -1,7 +1,7 @@
-#include "licht/scenes/gallery.h"
+#include "samples/scenes/gallery.h"
 
-#include "licht/scenes/assembly.h"
-#include "licht/scenes/builtin_scenes.h"
+#include "samples/scenes/assembly.h"
+#include "samples/scenes/builtin_scenes.h"
 
 namespace licht {
 

@@ -1,7 +1,7 @@
 // Pictures, sculpture and the mirror.
-#include "licht/scenes/assembly.h"
-#include "licht/scenes/gallery.h"
-#include "licht/scenes/shapes.h"
+#include "samples/scenes/assembly.h"
+#include "samples/scenes/gallery.h"
+#include "samples/scenes/shapes.h"
 
 namespace licht::gallery {
 namespace {

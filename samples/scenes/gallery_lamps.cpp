@@ -1,9 +1,9 @@
 // Lamps: emissive spheres, shades that shine faintly, and the spot lights of the pictures.
 #include <cmath>
 
-#include "licht/scenes/assembly.h"
-#include "licht/scenes/gallery.h"
-#include "licht/scenes/shapes.h"
+#include "samples/scenes/assembly.h"
+#include "samples/scenes/gallery.h"
+#include "samples/scenes/shapes.h"
 
 namespace licht::gallery {
 namespace {

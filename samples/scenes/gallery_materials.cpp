@@ -1,9 +1,9 @@
 #include <string>
 #include <utility>
 
-#include "licht/scenes/assembly.h"
-#include "licht/scenes/gallery.h"
-#include "licht/scenes/gallery_textures.h"
+#include "samples/scenes/assembly.h"
+#include "samples/scenes/gallery.h"
+#include "samples/scenes/gallery_textures.h"
 
 namespace licht::gallery {
 namespace {

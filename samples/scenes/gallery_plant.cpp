@@ -1,10 +1,10 @@
 // A pot plant: leaves are curved sheets whose outline is cut by alpha.
 #include <cmath>
 
-#include "licht/scenes/assembly.h"
-#include "licht/scenes/gallery.h"
-#include "licht/scenes/pattern.h"
-#include "licht/scenes/shapes.h"
+#include "samples/scenes/assembly.h"
+#include "samples/scenes/gallery.h"
+#include "samples/scenes/pattern.h"
+#include "samples/scenes/shapes.h"
 
 namespace licht::gallery {
 namespace {

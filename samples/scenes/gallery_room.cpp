@@ -4,10 +4,10 @@
 #include <cstddef>
 #include <utility>
 
-#include "licht/scenes/assembly.h"
-#include "licht/scenes/gallery.h"
-#include "licht/scenes/gallery_textures.h"
-#include "licht/scenes/shapes.h"
+#include "samples/scenes/assembly.h"
+#include "samples/scenes/gallery.h"
+#include "samples/scenes/gallery_textures.h"
+#include "samples/scenes/shapes.h"
 
 namespace licht::gallery {
 namespace {

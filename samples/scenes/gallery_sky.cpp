@@ -1,7 +1,7 @@
 #include <cmath>
 
-#include "licht/scenes/gallery.h"
-#include "licht/scenes/pattern.h"
+#include "samples/scenes/gallery.h"
+#include "samples/scenes/pattern.h"
 
 namespace licht::gallery {
 namespace {

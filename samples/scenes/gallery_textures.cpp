@@ -1,9 +1,9 @@
-#include "licht/scenes/gallery_textures.h"
+#include "samples/scenes/gallery_textures.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "licht/scenes/pattern.h"
+#include "samples/scenes/pattern.h"
 
 namespace licht::gallery {
 namespace {

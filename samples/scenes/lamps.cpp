@@ -1,6 +1,6 @@
 // A long dark hall and its lamps: every place is lit by the few lamps near it, most lamps are far from it or
 // hidden. The count of triangles is that of the lamps alone.
-#include "licht/scenes/lamps.h"
+#include "samples/scenes/lamps.h"
 
 #include <algorithm>
 #include <array>
@@ -12,10 +12,10 @@
 #include <utility>
 #include <vector>
 
-#include "licht/scenes/assembly.h"
-#include "licht/scenes/builtin_scenes.h"
-#include "licht/scenes/pattern.h"
-#include "licht/scenes/shapes.h"
+#include "samples/scenes/assembly.h"
+#include "samples/scenes/builtin_scenes.h"
+#include "samples/scenes/pattern.h"
+#include "samples/scenes/shapes.h"
 
 namespace licht {
 namespace {

@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "licht/scenes/assembly.h"
-#include "licht/scenes/lamps.h"
-#include "licht/scenes/shapes.h"
+#include "samples/scenes/assembly.h"
+#include "samples/scenes/lamps.h"
+#include "samples/scenes/shapes.h"
 
 namespace licht::lamps {
 namespace {

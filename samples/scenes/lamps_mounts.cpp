@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <span>
 
-#include "licht/scenes/lamps.h"
-#include "licht/scenes/pattern.h"
+#include "samples/scenes/lamps.h"
+#include "samples/scenes/pattern.h"
 
 namespace licht::lamps {
 namespace {

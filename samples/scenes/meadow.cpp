@@ -3,10 +3,10 @@
 #include <array>
 #include <cmath>
 
-#include "licht/scenes/assembly.h"
-#include "licht/scenes/builtin_scenes.h"
-#include "licht/scenes/pattern.h"
-#include "licht/scenes/shapes.h"
+#include "samples/scenes/assembly.h"
+#include "samples/scenes/builtin_scenes.h"
+#include "samples/scenes/pattern.h"
+#include "samples/scenes/shapes.h"
 
 namespace licht {
 namespace {

@@ -1,4 +1,4 @@
-#include "licht/scenes/pattern.h"
+#include "samples/scenes/pattern.h"
 
 #include <cmath>
 #include <cstddef>

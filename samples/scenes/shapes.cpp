@@ -1,4 +1,4 @@
-#include "licht/scenes/shapes.h"
+#include "samples/scenes/shapes.h"
 
 #include <algorithm>
 #include <array>

@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "licht/scenes/assembly.h"
-#include "licht/scenes/builtin_scenes.h"
-#include "licht/scenes/pattern.h"
-#include "licht/scenes/shapes.h"
-#include "licht/scenes/tessellation.h"
+#include "samples/scenes/assembly.h"
+#include "samples/scenes/builtin_scenes.h"
+#include "samples/scenes/pattern.h"
+#include "samples/scenes/shapes.h"
+#include "samples/scenes/tessellation.h"
 
 namespace licht {
 namespace {

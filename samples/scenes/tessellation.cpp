@@ -1,4 +1,4 @@
-#include "licht/scenes/tessellation.h"
+#include "samples/scenes/tessellation.h"
 
 #include <algorithm>
 #include <cmath>

@@ -12,8 +12,8 @@
 #include <fmt/format.h>
 
 #include "licht/core/error.h"
-#include "licht/shared/records.h"
-#include "licht/yardstick/yardstick.h"
+#include "licht/shared/index.h"
+#include "samples/yardstick/yardstick.h"
 
 namespace licht {
 namespace {

@@ -1,4 +1,4 @@
-#include "licht/yardstick/yardstick.h"
+#include "samples/yardstick/yardstick.h"
 
 namespace licht {
 

@@ -1,10 +1,12 @@
 // Which pixels a frame samples, and which of their samples it draws: all of them and the frame's own, unless tiles are sampled as their noise calls for.
 #ifndef LICHT_BOUND_ADAPTIVE_GLSL
 #define LICHT_BOUND_ADAPTIVE_GLSL
-#include "shared/records.h"
+#include "shared/bindings.h"
+#include "shared/constants.h"
+#include "shared/frame.h"
 
-layout(constant_id = 41) const bool kAdaptive = false;  // kConstantAdaptive
-layout(std430, binding = 91) readonly buffer AdaptiveTiles { AdaptiveTileRecord adaptive_tiles[]; };
+layout(constant_id = kConstantAdaptive) const bool kAdaptive = false;
+layout(std430, binding = kBindingAdaptiveTiles) readonly buffer AdaptiveTiles { AdaptiveTileRecord adaptive_tiles[]; };
 
 AdaptiveTileRecord adaptiveTile(uvec2 pixel, uint width) {
     uvec2 tile = pixel / kAdaptiveTileSide;

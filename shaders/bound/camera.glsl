@@ -3,7 +3,8 @@
 #define LICHT_BOUND_CAMERA_GLSL
 
 #include "pure/sobol.glsl"
-#include "shared/records.h"
+#include "shared/dimensions.h"
+#include "shared/frame.h"
 
 // Where in its pixel sample `index` lies, box filter. The rasteriser has one projection a frame, so all pixels share the offset and its noise would not
 // average out over them: whatever the sampler is, the offsets fill the pixel evenly. Against multiples of two irrational numbers the error of an edge through

@@ -5,11 +5,15 @@
 #include "bound/scene.glsl"
 #include "pure/latlong.glsl"
 #include "pure/sequence.glsl"
+#include "shared/bindings.h"
+#include "shared/choices.h"
+#include "shared/constants.h"
+#include "shared/light.h"
 
-layout(constant_id = 35) const uint kEnvironmentSampling = kEnvironmentAlias;  // kConstantEnvironmentSampling
+layout(constant_id = kConstantEnvironmentSampling) const uint kEnvironmentSampling = kEnvironmentAlias;
 
-layout(binding = 8) uniform sampler2D environment_map;
-layout(binding = 7) uniform usampler2D environment_table;  // engine/render/environment_table.h
+layout(binding = kBindingEnvironmentMap) uniform sampler2D environment_map;
+layout(binding = kBindingEnvironmentTable) uniform usampler2D environment_table;  // engine/light/environment_table.h
 
 // Directions that rejection tried, and those that were asked for.
 uint g_environment_tries = 0u;

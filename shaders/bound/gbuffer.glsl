@@ -4,8 +4,10 @@
 
 #include "bound/camera.glsl"
 #include "bound/scene.glsl"
+#include "shared/bindings.h"
+#include "shared/index.h"
 
-layout(rgba32ui, binding = 20) uniform readonly uimage2D gbuffer;
+layout(rgba32ui, binding = kBindingGbuffer) uniform readonly uimage2D gbuffer;
 
 Hit gbufferHit(ivec2 pixel) {
     uvec4 record = imageLoad(gbuffer, pixel);

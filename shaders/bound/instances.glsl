@@ -2,12 +2,14 @@
 #ifndef LICHT_BOUND_INSTANCES_GLSL
 #define LICHT_BOUND_INSTANCES_GLSL
 #include "bound/instance_effect.glsl"
-#include "shared/records.h"
+#include "shared/bindings.h"
+#include "shared/constants.h"
+#include "shared/geometry.h"
 
 // Instances below this number are baked: their vertices are in world space.
-layout(constant_id = 69) const uint kBakedInstances = 0xffffffffu;
+layout(constant_id = kConstantBakedInstances) const uint kBakedInstances = 0xffffffffu;
 
-layout(std430, binding = 18) readonly buffer InstanceTransforms { InstanceTransformRecord instance_transforms[]; };
+layout(std430, binding = kBindingInstanceTransforms) readonly buffer InstanceTransforms { InstanceTransformRecord instance_transforms[]; };
 
 // world = (dot(x, object), dot(y, object), dot(z, object)) + pivot.
 struct Placement {

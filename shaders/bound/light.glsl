@@ -7,13 +7,19 @@
 #include "bound/light_tree.glsl"
 #include "bound/visibility.glsl"
 #include "pure/spherical.glsl"
+#include "shared/bindings.h"
+#include "shared/choices.h"
+#include "shared/constants.h"
+#include "shared/dimensions.h"
+#include "shared/index.h"
+#include "shared/light.h"
 
-layout(constant_id = 34) const uint kLights = kLightsPower;  // kConstantLights
+layout(constant_id = kConstantLights) const uint kLights = kLightsPower;
 
-layout(binding = 54) uniform usamplerBuffer light_texels;
-layout(binding = 55) uniform usamplerBuffer light_alias_texels;
-layout(std430, binding = 5) readonly buffer Lights { LightRecord lights[]; };
-layout(std430, binding = 6) readonly buffer LightAlias { AliasRecord light_alias[]; };
+layout(binding = kBindingLightTexels) uniform usamplerBuffer light_texels;
+layout(binding = kBindingLightAliasTexels) uniform usamplerBuffer light_alias_texels;
+layout(std430, binding = kBindingLights) readonly buffer Lights { LightRecord lights[]; };
+layout(std430, binding = kBindingLightAlias) readonly buffer LightAlias { AliasRecord light_alias[]; };
 
 LightRecord lightAt(uint i) {
     if (kSceneInStorage) return lights[i];

@@ -7,10 +7,12 @@
 #include "bound/scene_data.glsl"
 #include "pure/bsdf.glsl"
 #include "pure/spherical.glsl"
-#include "shared/records.h"
+#include "shared/bindings.h"
+#include "shared/index.h"
+#include "shared/light.h"
 
-layout(binding = 56) uniform usamplerBuffer light_tree_texels;
-layout(std430, binding = 15) readonly buffer LightTree { LightChildRecord light_tree[]; };
+layout(binding = kBindingLightTreeTexels) uniform usamplerBuffer light_tree_texels;
+layout(std430, binding = kBindingLightTree) readonly buffer LightTree { LightChildRecord light_tree[]; };
 
 LightChildRecord lightChildAt(uint i) {
     if (kSceneInStorage) return light_tree[i];

@@ -1,13 +1,16 @@
 // A list of rays to be traced and what each hits, as ray_tracer.cpp binds them.
 #ifndef LICHT_BOUND_LISTED_RAYS_GLSL
 #define LICHT_BOUND_LISTED_RAYS_GLSL
+#include "shared/bindings.h"
+#include "shared/constants.h"
+#include "shared/index.h"
 #include "shared/ray_records.h"
 
-layout(constant_id = 80) const bool kAnyHit = false;  // kConstantAnyHit
+layout(constant_id = kConstantAnyHit) const bool kAnyHit = false;
 // Not push constants: some drivers compile a program again for every value that decides a branch.
-layout(std430, binding = 30) readonly buffer Range { RayRange range; };
-layout(binding = 31) uniform samplerBuffer ray_texels;  // RayRecord: two texels a ray
-layout(std430, binding = 32) writeonly buffer RayHits { RayHitRecord ray_hits[]; };  // kRayCut stays where nothing is written
+layout(std430, binding = kBindingRayRange) readonly buffer Range { RayRange range; };
+layout(binding = kBindingRayTexels) uniform samplerBuffer ray_texels;  // RayRecord: two texels a ray
+layout(std430, binding = kBindingRayHits) writeonly buffer RayHits { RayHitRecord ray_hits[]; };  // kRayCut stays where nothing is written
 
 bool acceptHit(uint position, float t) { return true; }
 #include "bound/traversal.glsl"

@@ -4,9 +4,12 @@
 #define LICHT_BOUND_ORDERS_GLSL
 #include "bound/path.glsl"
 #include "bound/sample_store.glsl"
+#include "shared/bindings.h"
+#include "shared/constants.h"
+#include "shared/frame.h"
 
-layout(constant_id = 40) const uint kOrders = 0u;  // kConstantOrders
-layout(rgba32f, binding = 90) uniform image2D order_sums;  // RGB: light; A: rays
+layout(constant_id = kConstantOrders) const uint kOrders = 0u;
+layout(rgba32f, binding = kBindingOrderSums) uniform image2D order_sums;  // RGB: light; A: rays
 
 void addToTile(uint tile, vec4 value) {
     uvec2 size = frame.view.size;

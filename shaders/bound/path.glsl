@@ -4,11 +4,16 @@
 #define LICHT_BOUND_PATH_GLSL
 
 #include "bound/light.glsl"
+#include "shared/choices.h"
+#include "shared/constants.h"
+#include "shared/dimensions.h"
+#include "shared/index.h"
+#include "shared/light.h"
 
-layout(constant_id = 32) const uint kDirect = kDirectMis;    // kConstantDirect
-layout(constant_id = 33) const bool kMisBalance = false;     // kConstantMisBalance
-layout(constant_id = 38) const bool kClamp = false;          // kConstantClamp
-layout(constant_id = 39) const bool kRegularise = false;     // kConstantRegularise
+layout(constant_id = kConstantDirect) const uint kDirect = kDirectMis;
+layout(constant_id = kConstantMisBalance) const bool kMisBalance = false;
+layout(constant_id = kConstantClamp) const bool kClamp = false;
+layout(constant_id = kConstantRegularise) const bool kRegularise = false;
 
 struct PathCounts {
     uint bounce_rays;

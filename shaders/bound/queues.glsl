@@ -5,18 +5,20 @@
 #include "bound/adaptive.glsl"
 #include "bound/gbuffer.glsl"
 #include "bound/orders.glsl"
+#include "shared/bindings.h"
+#include "shared/choices.h"
 #include "shared/queue_records.h"
 
 layout(push_constant) uniform Push { QueuePush push; };
-layout(std430, binding = 80) buffer QueueCounts { uint queue_counts[]; };
-layout(std430, binding = 81) writeonly buffer QueuePaths { uvec4 queue_paths[]; };
-layout(std430, binding = 82) writeonly buffer QueueHits { uint queue_hits[]; };
-layout(std430, binding = 83) writeonly buffer QueueRays { uvec4 queue_rays[]; };
-layout(std430, binding = 84) writeonly buffer QueueShadows { uvec4 queue_shadows[]; };
-layout(binding = 85) uniform usamplerBuffer queue_path_texels;
-layout(binding = 86) uniform usamplerBuffer queue_hit_texels;
-layout(binding = 87) uniform usamplerBuffer queue_ray_texels;
-layout(binding = 88) uniform usamplerBuffer queue_shadow_texels;
+layout(std430, binding = kBindingQueueCounts) buffer QueueCounts { uint queue_counts[]; };
+layout(std430, binding = kBindingQueuePaths) writeonly buffer QueuePaths { uvec4 queue_paths[]; };
+layout(std430, binding = kBindingQueueHits) writeonly buffer QueueHits { uint queue_hits[]; };
+layout(std430, binding = kBindingQueueRays) writeonly buffer QueueRays { uvec4 queue_rays[]; };
+layout(std430, binding = kBindingQueueShadows) writeonly buffer QueueShadows { uvec4 queue_shadows[]; };
+layout(binding = kBindingQueuePathTexels) uniform usamplerBuffer queue_path_texels;
+layout(binding = kBindingQueueHitTexels) uniform usamplerBuffer queue_hit_texels;
+layout(binding = kBindingQueueRayTexels) uniform usamplerBuffer queue_ray_texels;
+layout(binding = kBindingQueueShadowTexels) uniform usamplerBuffer queue_shadow_texels;
 
 void onRay(vec3 origin, vec3 direction, float t_max, bool any_hit) {}
 

@@ -3,9 +3,12 @@
 #define LICHT_BOUND_SAMPLE_STORE_GLSL
 #include "bound/environment.glsl"
 #include "bound/visibility.glsl"
+#include "shared/bindings.h"
+#include "shared/choices.h"
+#include "shared/counters.h"
 
-layout(rgba32f, binding = 21) uniform writeonly image2D radiance_image;
-layout(std430, binding = 16) buffer Counters { CounterRecord counters; };
+layout(rgba32f, binding = kBindingRadiance) uniform writeonly image2D radiance_image;
+layout(std430, binding = kBindingCounters) buffer Counters { CounterRecord counters; };
 
 bool finite(vec3 c) { return all(lessThan(floatBitsToUint(c) & 0x7f800000u, uvec3(0x7f800000u))); }
 

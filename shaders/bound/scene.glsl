@@ -5,27 +5,29 @@
 #include "bound/instances.glsl"
 #include "bound/scene_data.glsl"
 #include "shared/effects.h"
-#include "shared/records.h"
+#include "shared/bindings.h"
+#include "shared/frame.h"
+#include "shared/index.h"
 
-layout(constant_id = 0) const bool kTextures = true;
-layout(constant_id = 1) const bool kNormalMaps = true;
-layout(constant_id = 2) const bool kVertexColors = true;
-layout(constant_id = 3) const bool kExtraUvSets = true;
-layout(constant_id = 4) const bool kAlpha = true;
+layout(constant_id = kEffectTextures) const bool kTextures = true;
+layout(constant_id = kEffectNormalMaps) const bool kNormalMaps = true;
+layout(constant_id = kEffectVertexColors) const bool kVertexColors = true;
+layout(constant_id = kEffectExtraUvSets) const bool kExtraUvSets = true;
+layout(constant_id = kEffectAlpha) const bool kAlpha = true;
 // 5, kGlossy, belongs to pure/bsdf.glsl.
-layout(constant_id = 6) const bool kEmission = true;
-layout(constant_id = 7) const bool kLightTriangles = true;
-layout(constant_id = 8) const bool kPunctualLights = true;
-layout(constant_id = 9) const bool kEnvironment = true;
-layout(constant_id = 10) const bool kUnlit = true;
-layout(constant_id = 14) const bool kSuns = true;
+layout(constant_id = kEffectEmission) const bool kEmission = true;
+layout(constant_id = kEffectLightTriangles) const bool kLightTriangles = true;
+layout(constant_id = kEffectPunctualLights) const bool kPunctualLights = true;
+layout(constant_id = kEffectEnvironment) const bool kEnvironment = true;
+layout(constant_id = kEffectUnlit) const bool kUnlit = true;
+layout(constant_id = kEffectSuns) const bool kSuns = true;
 
 // A storage buffer, though a uniform one would hold it: Mesa 22.3's lavapipe writes the values of uniforms that decide branches and loops into the
 // program and compiles it again at every submission (measured: 10 s a sample for a textured scene).
-layout(std430, binding = 0) readonly buffer FrameBlock { FrameRecord frame; };
-layout(std430, binding = 11) readonly buffer Tangents { vec4 tangents[]; };
-layout(std430, binding = 12) readonly buffer Colors { vec4 colors[]; };
-layout(std430, binding = 13) readonly buffer ExtraUvs { vec2 extra_uvs[]; };
+layout(std430, binding = kBindingFrame) readonly buffer FrameBlock { FrameRecord frame; };
+layout(std430, binding = kBindingTangents) readonly buffer Tangents { vec4 tangents[]; };
+layout(std430, binding = kBindingColors) readonly buffer Colors { vec4 colors[]; };
+layout(std430, binding = kBindingExtraUvs) readonly buffer ExtraUvs { vec2 extra_uvs[]; };
 
 // Where a path meets the scene; raster and ray deliver the same record. Weights: 1 - b1 - b2, b1, b2.
 struct Hit {

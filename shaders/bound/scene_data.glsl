@@ -4,18 +4,21 @@
 #ifndef LICHT_BOUND_SCENE_DATA_GLSL
 #define LICHT_BOUND_SCENE_DATA_GLSL
 
-#include "shared/records.h"
+#include "shared/bindings.h"
+#include "shared/constants.h"
+#include "shared/geometry.h"
+#include "shared/material.h"
 
-layout(constant_id = 73) const bool kSceneInStorage = false;  // kConstantSceneInStorage
+layout(constant_id = kConstantSceneInStorage) const bool kSceneInStorage = false;
 
-layout(binding = 50) uniform usamplerBuffer vertex_texels;
-layout(binding = 51) uniform usamplerBuffer triangle_index_texels;  // R32UI
-layout(binding = 52) uniform usamplerBuffer instance_texels;
-layout(binding = 53) uniform usamplerBuffer material_texels;
-layout(std430, binding = 1) readonly buffer Vertices { VertexRecord vertices[]; };
-layout(std430, binding = 2) readonly buffer TriangleIndices { uint triangle_indices[]; };
-layout(std430, binding = 3) readonly buffer Instances { InstanceRecord instances[]; };
-layout(std430, binding = 4) readonly buffer Materials { MaterialRecord materials[]; };
+layout(binding = kBindingVertexTexels) uniform usamplerBuffer vertex_texels;
+layout(binding = kBindingTriangleIndexTexels) uniform usamplerBuffer triangle_index_texels;  // R32UI
+layout(binding = kBindingInstanceTexels) uniform usamplerBuffer instance_texels;
+layout(binding = kBindingMaterialTexels) uniform usamplerBuffer material_texels;
+layout(std430, binding = kBindingVertices) readonly buffer Vertices { VertexRecord vertices[]; };
+layout(std430, binding = kBindingTriangleIndices) readonly buffer TriangleIndices { uint triangle_indices[]; };
+layout(std430, binding = kBindingInstances) readonly buffer Instances { InstanceRecord instances[]; };
+layout(std430, binding = kBindingMaterials) readonly buffer Materials { MaterialRecord materials[]; };
 
 VertexRecord vertexAt(uint i) {
     if (kSceneInStorage) return vertices[i];

@@ -6,6 +6,10 @@
 #include "pure/bsdf.glsl"
 #include "pure/frame.glsl"
 #include "pure/random.glsl"
+#include "shared/dimensions.h"
+#include "shared/geometry.h"
+#include "shared/index.h"
+#include "shared/material.h"
 
 struct Surface {
     vec3 position;       // world

@@ -4,15 +4,19 @@
 #define LICHT_BOUND_TEXTURE_GLSL
 
 #include "bound/scene.glsl"
+#include "shared/bindings.h"
+#include "shared/constants.h"
+#include "shared/index.h"
+#include "shared/material.h"
 
-layout(std430, binding = 9) readonly buffer Textures { TextureRecord textures[]; };
-layout(std430, binding = 10) readonly buffer TexelPages { uint words[]; } texel_pages[kTexturePages];
-layout(std430, binding = 14) readonly buffer SrgbTable { float srgb_table[256]; };
+layout(std430, binding = kBindingTextures) readonly buffer Textures { TextureRecord textures[]; };
+layout(std430, binding = kBindingTexelPages) readonly buffer TexelPages { uint words[]; } texel_pages[kTexturePages];
+layout(std430, binding = kBindingSrgbTable) readonly buffer SrgbTable { float srgb_table[256]; };
 
 // What of the texture code the scene calls for: drivers without branches run everything that is compiled in.
-layout(constant_id = 66) const uint kTexturePagesUsed = kTexturePages;
-layout(constant_id = 67) const uint kTextureSlotKinds = 0xffffffffu;  // bits 1 << kSlot...
-layout(constant_id = 68) const bool kWideTexels = true;               // 16 bits per channel
+layout(constant_id = kConstantTexturePages) const uint kTexturePagesUsed = kTexturePages;
+layout(constant_id = kConstantTextureSlotKinds) const uint kTextureSlotKinds = 0xffffffffu;  // bits 1 << kSlot...
+layout(constant_id = kConstantWideTexels) const bool kWideTexels = true;               // 16 bits per channel
 
 // The page differs from lane to lane, which core Vulkan does not let index an array of buffers.
 uint texelWord(uint page, uint word) {

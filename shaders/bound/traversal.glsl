@@ -7,28 +7,31 @@
 #include "bound/instance_effect.glsl"
 #include "pure/intersect.glsl"
 #include "shared/bvh_layout.h"
-#include "shared/records.h"
+#include "shared/bindings.h"
+#include "shared/constants.h"
+#include "shared/effects.h"
+#include "shared/index.h"
 
 // Texel buffers are about twice as fast where lanes fetch one by one, but some devices keep them small; then the same data is read as storage.
-layout(constant_id = 64) const bool kBvhInStorage = false;
+layout(constant_id = kConstantBvhInStorage) const bool kBvhInStorage = false;
 // Bvh::max_stack: no traversal of that tree holds more entries.
-layout(constant_id = 65) const uint kBvhStackSize = 64u;
+layout(constant_id = kConstantBvhStackSize) const uint kBvhStackSize = 64u;
 // kConstantRaysPerThread; more than one: lanes are refilled (ray_list.glsl), as suits devices that run them in lockstep.
-layout(constant_id = 81) const uint kRaysPerThread = 1u;
-layout(constant_id = 13) const bool kLightSpheres = false;
+layout(constant_id = kConstantRaysPerThread) const uint kRaysPerThread = 1u;
+layout(constant_id = kEffectLightSpheres) const bool kLightSpheres = false;
 const bool kRefilled = kRaysPerThread > 1u;
 
 // Positions from here on are instances.
-layout(constant_id = 70) const uint kFirstInstancePosition = 0xffffffffu;
+layout(constant_id = kConstantFirstInstancePosition) const uint kFirstInstancePosition = 0xffffffffu;
 // TwoLevelBvh::slack
-layout(constant_id = 71) const float kSlackOfInstances = 0.0;
+layout(constant_id = kConstantInstanceSlack) const float kSlackOfInstances = 0.0;
 // Added to an instance's position it gives the texel with its root and number.
-layout(constant_id = 79) const uint kFirstInstanceTexel = 0u;
+layout(constant_id = kConstantFirstInstanceTexel) const uint kFirstInstanceTexel = 0u;
 
-layout(binding = 40) uniform usamplerBuffer bvh_nodes;     // RGBA32UI
-layout(binding = 42) uniform samplerBuffer bvh_triangles;  // RGBA32F: three vertices a triangle, in the leaves' order
-layout(binding = 43, std430) readonly buffer bvh_nodes_storage { uvec4 bvh_node_texels[]; };
-layout(binding = 46, std430) readonly buffer bvh_triangles_storage { vec4 bvh_triangle_texels[]; };
+layout(binding = kBindingBvhNodes) uniform usamplerBuffer bvh_nodes;     // RGBA32UI
+layout(binding = kBindingBvhTriangles) uniform samplerBuffer bvh_triangles;  // RGBA32F: three vertices a triangle, in the leaves' order
+layout(binding = kBindingBvhNodesStorage, std430) readonly buffer bvh_nodes_storage { uvec4 bvh_node_texels[]; };
+layout(binding = kBindingBvhTrianglesStorage, std430) readonly buffer bvh_triangles_storage { vec4 bvh_triangle_texels[]; };
 
 // True once a walk of this invocation was cut short: the lavapipe of Mesa 22.3 lets all loops of an invocation together run 65,535 rounds and
 // then leaves them without a word. A round is one node and one triangle, so only huge stacks of overlapping triangles get there. Entry shaders

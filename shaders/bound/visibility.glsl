@@ -3,6 +3,8 @@
 #define LICHT_BOUND_VISIBILITY_GLSL
 
 #include "bound/surface.glsl"
+#include "shared/geometry.h"
+#include "shared/index.h"
 
 // Whose rays are traced, and how many were before: what the coverage of partly transparent surfaces is decided by.
 SampleAddress g_address;

@@ -3,15 +3,16 @@
 // The history: mean and variance of every pixel, all samples weighted alike.
 #include "bound/adaptive.glsl"
 #include "pure/running_mean.glsl"
-#include "shared/records.h"
+#include "shared/bindings.h"
+#include "shared/frame.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(push_constant) uniform Push { SamplePush push; };
-layout(rgba32f, binding = 21) uniform readonly image2D radiance_image;
-layout(rgba32f, binding = 22) uniform image2D mean_high;
-layout(rgba32f, binding = 23) uniform image2D mean_low;
-layout(rgba32f, binding = 24) uniform image2D squares_high;
-layout(rgba32f, binding = 25) uniform image2D squares_low;
+layout(rgba32f, binding = kBindingRadiance) uniform readonly image2D radiance_image;
+layout(rgba32f, binding = kBindingMeanHigh) uniform image2D mean_high;
+layout(rgba32f, binding = kBindingMeanLow) uniform image2D mean_low;
+layout(rgba32f, binding = kBindingSquaresHigh) uniform image2D squares_high;
+layout(rgba32f, binding = kBindingSquaresLow) uniform image2D squares_low;
 
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);

@@ -3,12 +3,15 @@
 // Extra layers from the primary hits. Sums over the samples that hit a surface; the host divides by their number.
 #include "bound/gbuffer.glsl"
 #include "bound/surface.glsl"
+#include "shared/bindings.h"
+#include "shared/frame.h"
+#include "shared/index.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(push_constant) uniform Push { SamplePush push; };
-layout(rgba32f, binding = 26) uniform image2D aov_albedo;  // RGB; A: number of hits
-layout(rgba32f, binding = 27) uniform image2D aov_normal;  // XYZ; W: depth
-layout(rgba32f, binding = 28) uniform image2D aov_motion;  // XY
+layout(rgba32f, binding = kBindingAovAlbedo) uniform image2D aov_albedo;  // RGB; A: number of hits
+layout(rgba32f, binding = kBindingAovNormal) uniform image2D aov_normal;  // XYZ; W: depth
+layout(rgba32f, binding = kBindingAovMotion) uniform image2D aov_motion;  // XY
 
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);

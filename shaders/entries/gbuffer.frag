@@ -2,6 +2,8 @@
 #extension GL_GOOGLE_include_directive : require
 // Stores the hit record; partly transparent surfaces are there or not, as for every other ray.
 #include "bound/surface.glsl"
+#include "shared/frame.h"
+#include "shared/geometry.h"
 
 layout(push_constant) uniform Push { SamplePush push; };
 

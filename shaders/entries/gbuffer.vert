@@ -4,6 +4,7 @@
 // optional feature, and the barycentrics are plain interpolated values.
 #include "bound/camera.glsl"
 #include "bound/scene.glsl"
+#include "shared/frame.h"
 
 layout(push_constant) uniform Push { SamplePush push; };
 

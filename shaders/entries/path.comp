@@ -4,9 +4,12 @@
 #include "bound/adaptive.glsl"
 #include "bound/gbuffer.glsl"
 #include "bound/orders.glsl"
+#include "shared/constants.h"
+#include "shared/frame.h"
+#include "shared/index.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(constant_id = 72) const uint kPathsPerThread = 1u;  // kConstantPathsPerThread
+layout(constant_id = kConstantPathsPerThread) const uint kPathsPerThread = 1u;
 layout(push_constant) uniform Push { SamplePush push; };
 
 shared uint s_bounce_rays;
@@ -23,7 +26,7 @@ void main() {
     PathCounts counts = PathCounts(0u, 0u);
     // Kernels with queues between them (queues.cpp) draw 1.15 to 1.3 times as fast on lavapipe: of eight lanes 0.80 to 0.89 are alive at a vertex here
     // (0.54 to 0.83 with one path a thread), all of them in queues, and within a walk about half here and most there, where lanes take the next ray of
-    // a list. They take 0.3 s more to compile and 180 bytes a path; samples/licht/queue_choice.cpp says when they pay.
+    // a list. They take 0.3 s more to compile and 180 bytes a path; engine/run/queue_choice.cpp says when they pay.
     // A thread follows a column of paths, the next one as soon as one ends: drivers that run lanes in lockstep would otherwise idle wherever the
     // paths of a group are of different lengths.
     uvec2 pixel = uvec2(gl_GlobalInvocationID.x, push.first_row + gl_WorkGroupID.y * gl_WorkGroupSize.y * kPathsPerThread + gl_LocalInvocationID.y);

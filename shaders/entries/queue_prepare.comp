@@ -3,14 +3,16 @@
 // How many workgroups the next kernels of a bounce need.
 #include "shared/queue_records.h"
 #include "shared/ray_records.h"
-#include "shared/records.h"
+#include "shared/bindings.h"
+#include "shared/constants.h"
+#include "shared/counters.h"
 
 layout(local_size_x = 1) in;
-layout(constant_id = 81) const uint kRaysPerThread = 1u;  // kConstantRaysPerThread
+layout(constant_id = kConstantRaysPerThread) const uint kRaysPerThread = 1u;
 layout(push_constant) uniform Push { QueuePush push; };
-layout(std430, binding = 80) readonly buffer QueueCounts { uint queue_counts[]; };
-layout(std430, binding = 89) writeonly buffer QueueGroups { uvec4 queue_groups[]; };  // of VkDispatchIndirectCommand, one of kCount... each
-layout(std430, binding = 16) buffer Counters { CounterRecord counters; };
+layout(std430, binding = kBindingQueueCounts) readonly buffer QueueCounts { uint queue_counts[]; };
+layout(std430, binding = kBindingQueueGroups) writeonly buffer QueueGroups { uvec4 queue_groups[]; };  // of VkDispatchIndirectCommand, one of kCount... each
+layout(std430, binding = kBindingCounters) buffer Counters { CounterRecord counters; };
 
 void main() {
     uint first = kQueueCounts * push.bounce;

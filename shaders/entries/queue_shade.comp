@@ -4,6 +4,7 @@
 #extension GL_KHR_shader_subgroup_ballot : require
 // One vertex of every path that hit something: what it emits, and the two rays that leave it.
 #include "bound/queues.glsl"
+#include "shared/index.h"
 
 layout(local_size_x = 64) in;
 

@@ -4,6 +4,7 @@
 #extension GL_KHR_shader_subgroup_ballot : require
 // Light that is not blocked is added to the path that asked for it.
 #include "bound/queues.glsl"
+#include "shared/index.h"
 
 layout(local_size_x = 64) in;
 

@@ -4,6 +4,7 @@
 #extension GL_KHR_shader_subgroup_ballot : require
 // Where the paths go on: those that hit something are queued for their next vertex, the others end in the sky.
 #include "bound/queues.glsl"
+#include "shared/index.h"
 
 layout(local_size_x = 64) in;
 

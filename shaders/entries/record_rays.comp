@@ -3,17 +3,21 @@
 // Follows one path a pixel as path.comp does and writes down the rays that it traces, for measuring them alone.
 #include "bound/gbuffer.glsl"
 #include "bound/path.glsl"
+#include "shared/bindings.h"
+#include "shared/dimensions.h"
+#include "shared/frame.h"
+#include "shared/index.h"
 #include "shared/ray_records.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(push_constant) uniform Push { SamplePush push; };
 // A list a binding, because one buffer for all would be larger than devices must allow.
-layout(std430, binding = 30) writeonly buffer PrimaryRays { RayRecord primary_rays[]; };
-layout(std430, binding = 31) writeonly buffer FirstShadowRays { RayRecord first_shadow_rays[]; };
-layout(std430, binding = 32) writeonly buffer FirstBounceRays { RayRecord first_bounce_rays[]; };
-layout(std430, binding = 33) writeonly buffer SecondShadowRays { RayRecord second_shadow_rays[]; };
-layout(std430, binding = 34) writeonly buffer SecondBounceRays { RayRecord second_bounce_rays[]; };
-layout(std430, binding = 35) writeonly buffer GlossyRays { RayRecord glossy_rays[]; };
+layout(std430, binding = kFirstFreeBinding) writeonly buffer PrimaryRays { RayRecord primary_rays[]; };
+layout(std430, binding = kFirstFreeBinding + 1u) writeonly buffer FirstShadowRays { RayRecord first_shadow_rays[]; };
+layout(std430, binding = kFirstFreeBinding + 2u) writeonly buffer FirstBounceRays { RayRecord first_bounce_rays[]; };
+layout(std430, binding = kFirstFreeBinding + 3u) writeonly buffer SecondShadowRays { RayRecord second_shadow_rays[]; };
+layout(std430, binding = kFirstFreeBinding + 4u) writeonly buffer SecondBounceRays { RayRecord second_bounce_rays[]; };
+layout(std430, binding = kFirstFreeBinding + 5u) writeonly buffer GlossyRays { RayRecord glossy_rays[]; };
 
 const RayRecord kNoRay = RayRecord(vec3(0.0), 0.0, vec3(0.0, 0.0, 1.0), -1.0);
 

@@ -2,13 +2,15 @@
 #extension GL_GOOGLE_include_directive : require
 // From the history's mean to what a display shows.
 #include "pure/tonemap.glsl"
-#include "shared/records.h"
+#include "shared/bindings.h"
+#include "shared/choices.h"
+#include "shared/frame.h"
 #include "shared/transfer.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(push_constant) uniform Push { TonemapPush push; };
-layout(rgba32f, binding = 22) uniform readonly image2D mean_high;
-layout(rgba8, binding = 29) uniform writeonly image2D display_image;
+layout(rgba32f, binding = kBindingMeanHigh) uniform readonly image2D mean_high;
+layout(rgba8, binding = kBindingDisplay) uniform writeonly image2D display_image;
 
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);

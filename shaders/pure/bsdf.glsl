@@ -9,8 +9,8 @@
 #include "pure/microfacet.glsl"
 #include "shared/effects.h"
 
-layout(constant_id = 5) const bool kGlossy = true;  // kEffectGlossy
-layout(constant_id = 11) const bool kIridescence = true;  // kEffectIridescence
+layout(constant_id = kEffectGlossy) const bool kGlossy = true;
+layout(constant_id = kEffectIridescence) const bool kIridescence = true;
 
 struct Bsdf {
     vec3 diffuse;             // albedo of the base: base colour * (1 - metallic)

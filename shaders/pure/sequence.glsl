@@ -3,10 +3,11 @@
 #define LICHT_PURE_SEQUENCE_GLSL
 
 #include "pure/sobol.glsl"
-#include "shared/records.h"
+#include "shared/choices.h"
+#include "shared/constants.h"
 
-layout(constant_id = 36) const uint kSampler = kSamplerSobol;  // kConstantSampler
-layout(constant_id = 37) const uint kBlueBits = 4u;            // kConstantBlueBits
+layout(constant_id = kConstantSampler) const uint kSampler = kSamplerSobol;
+layout(constant_id = kConstantBlueBits) const uint kBlueBits = 4u;
 
 uvec4 sampleBits4(SampleAddress a, uint dimension) {
     if (kSampler == kSamplerRandom) return randomBits4(a, dimension);

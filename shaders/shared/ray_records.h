@@ -40,8 +40,5 @@ struct RayRange {
     uint count;
 };
 
-LICHT_CONSTANT uint kConstantAnyHit = 80u;
-LICHT_CONSTANT uint kConstantRaysPerThread = 81u;
-
 LICHT_SHARED_END
 #endif

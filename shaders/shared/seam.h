@@ -20,11 +20,13 @@
 #define LICHT_SHARED_END }
 #define LICHT_CONSTANT inline constexpr
 #define LICHT_FUNCTION inline
+#define LICHT_ASSERT(condition) static_assert(condition)
 #else
 #define LICHT_SHARED_BEGIN
 #define LICHT_SHARED_END
 #define LICHT_CONSTANT const
 #define LICHT_FUNCTION
+#define LICHT_ASSERT(condition)
 #endif
 
 #endif

@@ -1,11 +1,11 @@
 // When two hits count as the same.
-#include "licht/command/bench_compare.h"
+#include "samples/licht/bench_compare.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "licht/shared/records.h"
+#include "licht/shared/index.h"
 
 namespace licht {
 namespace {

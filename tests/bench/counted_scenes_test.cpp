@@ -6,7 +6,7 @@
 #include <string>
 #include <tuple>
 
-#include "licht/scenes/builtin.h"
+#include "samples/scenes/builtin.h"
 
 namespace licht {
 namespace {

@@ -6,13 +6,13 @@
 #include <string_view>
 
 #include "licht/core/error.h"
-#include "licht/render/flat_geometry.h"
-#include "licht/render/gpu_bvh.h"
-#include "licht/render/lanes.h"
-#include "licht/render/ray_recorder.h"
-#include "licht/render/ray_tracer.h"
-#include "licht/scenes/builtin.h"
-#include "licht/shared/records.h"
+#include "licht/gpu/lanes.h"
+#include "licht/on_device/flat_geometry.h"
+#include "licht/on_device/gpu_bvh.h"
+#include "licht/probe/ray_recorder.h"
+#include "licht/probe/ray_tracer.h"
+#include "licht/shared/index.h"
+#include "samples/scenes/builtin.h"
 #include "support/gpu_test.h"
 
 namespace licht {

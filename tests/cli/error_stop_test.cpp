@@ -5,10 +5,11 @@
 #include <cstdio>
 #include <iostream>
 
-#include "licht/command/render_loop.h"
+#include "licht/film/error_estimate.h"
 #include "licht/measure/metrics.h"
 #include "licht/measure/statistics.h"
-#include "licht/render/error_estimate.h"
+#include "licht/render/renderer.h"
+#include "licht/run/render_loop.h"
 #include "support/gpu_test.h"
 #include "support/render_test.h"
 
@@ -58,9 +59,7 @@ protected:
 
 TEST_P(ErrorStop, KeepsWhatIsPromised) {
     Renderer renderer(gpu::testDevice(), litFloor(), litFloorCamera(), settings_);
-    const InterruptWatch interrupt;
-    ProgressLine progress(stderr, true);
-    const LoopResult result = renderUntil(renderer, settings_, rules_, interrupt, progress);
+    const LoopResult result = renderUntil(renderer, settings_, rules_);
     EXPECT_EQ(result.stopped_by, Stop::error);
     EXPECT_LE(result.error, kWanted);
     expectKept(result.film);

@@ -1,8 +1,9 @@
-#include "licht/command/options.h"
+#include "samples/licht/options.h"
 
 #include <gtest/gtest.h>
 
 #include "licht/core/error.h"
+#include "licht/settings/settings.h"
 
 namespace licht {
 namespace {

@@ -1,9 +1,10 @@
 // Small pictures ahead of the one asked for: how deep light is followed, what a shortcut changes.
-#include "licht/command/pilot.h"
+#include "licht/run/pilot.h"
 
 #include <gtest/gtest.h>
 
-#include "licht/scenes/builtin.h"
+#include "licht/settings/settings.h"
+#include "samples/scenes/builtin.h"
 #include "support/gpu_test.h"
 
 namespace licht {

@@ -1,8 +1,10 @@
-#include "licht/command/queue_choice.h"
+#include "licht/run/queue_choice.h"
 
 #include <gtest/gtest.h>
 
 #include "licht/core/error.h"
+#include "licht/settings/settings.h"
+#include "samples/licht/options.h"
 
 namespace licht {
 namespace {

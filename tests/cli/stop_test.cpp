@@ -1,4 +1,4 @@
-#include "licht/command/stop.h"
+#include "licht/run/stop.h"
 
 #include <gtest/gtest.h>
 

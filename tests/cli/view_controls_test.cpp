@@ -1,6 +1,8 @@
-#include "licht/command/view_controls.h"
+#include "samples/licht/view_controls.h"
 
 #include <gtest/gtest.h>
+
+#include "licht/settings/settings.h"
 
 namespace licht {
 namespace {

@@ -8,6 +8,7 @@
 
 #include "hard.h"
 #include "licht/core/error.h"
+#include "licht/film/film.h"
 #include "licht/scene/gltf.h"
 #include "pictures.h"
 #include "support/gltf_file.h"

@@ -6,7 +6,9 @@
 #include <limits>
 #include <numbers>
 
+#include "licht/film/film.h"
 #include "licht/scene/gltf.h"
+#include "licht/settings/settings.h"
 #include "pictures.h"
 #include "support/gltf_file.h"
 

@@ -3,6 +3,8 @@
 
 #include <iostream>
 
+#include "licht/film/film.h"
+#include "licht/settings/settings.h"
 #include "pictures.h"
 
 namespace licht {

@@ -13,7 +13,7 @@ struct Outcome {
     float ulps;     // of the largest coordinate: distance of the two positions, the same primitive alone
     float cosine;   // of the ray to the primitive's normal
 };
-layout(std430, binding = 30) writeonly buffer OutcomeBlock { Outcome outcomes[]; };
+layout(std430, binding = kFirstFreeBinding) writeonly buffer OutcomeBlock { Outcome outcomes[]; };
 
 void onRay(vec3 origin, vec3 direction, float t_max, bool any_hit) {}
 

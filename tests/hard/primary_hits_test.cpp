@@ -6,8 +6,8 @@
 #include <cstring>
 #include <iostream>
 
-#include "licht/scenes/builtin.h"
 #include "licht/spirv/primary_hits_comp.h"
+#include "samples/scenes/builtin.h"
 #include "support/first_hits.h"
 
 namespace licht {

@@ -7,6 +7,8 @@
 #include <string>
 
 #include "hard.h"
+#include "licht/film/film.h"
+#include "licht/settings/settings.h"
 #include "pictures.h"
 
 namespace licht {

@@ -22,8 +22,8 @@ struct Answer {
     uint primitive;
     float error_bound;
 };
-layout(std430, binding = 30) readonly buffer QuestionBlock { Question questions[]; };
-layout(std430, binding = 31) writeonly buffer AnswerBlock { Answer answers[]; };
+layout(std430, binding = kFirstFreeBinding) readonly buffer QuestionBlock { Question questions[]; };
+layout(std430, binding = kFirstFreeBinding + 1u) writeonly buffer AnswerBlock { Answer answers[]; };
 
 void main() {
     uint i = gl_GlobalInvocationID.x;

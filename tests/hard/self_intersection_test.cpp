@@ -7,9 +7,11 @@
 
 #include "hard.h"
 #include "licht/gpu/commands.h"
-#include "licht/render/gpu_scene.h"
-#include "licht/scenes/assembly.h"
+#include "licht/on_device/gpu_scene.h"
+#include "licht/shared/effects.h"
+#include "licht/shared/frame.h"
 #include "licht/spirv/self_intersection_comp.h"
+#include "samples/scenes/assembly.h"
 #include "support/gpu_test.h"
 #include "support/render_test.h"
 

@@ -1,7 +1,5 @@
 // Samples where the noise is: how they are dealt out, that the mean stays right whatever happens, and what it
 // brings.
-#include "licht/render/adaptive.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,10 +7,13 @@
 #include <cstring>
 #include <random>
 
+#include "licht/film/adaptive_film.h"
+#include "licht/film/error_estimate.h"
 #include "licht/measure/metrics.h"
-#include "licht/scenes/assembly.h"
-#include "licht/scenes/builtin.h"
-#include "licht/scenes/shapes.h"
+#include "licht/render/renderer.h"
+#include "samples/scenes/assembly.h"
+#include "samples/scenes/builtin.h"
+#include "samples/scenes/shapes.h"
 #include "support/gpu_test.h"
 #include "support/render_test.h"
 

@@ -6,7 +6,9 @@
 #include <filesystem>
 #include <iostream>
 
+#include "licht/film/film.h"
 #include "licht/scene/gltf.h"
+#include "licht/settings/settings.h"
 #include "support/render_test.h"
 
 namespace licht {

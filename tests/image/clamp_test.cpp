@@ -3,8 +3,9 @@
 
 #include <cstring>
 
-#include "licht/render/orders.h"
-#include "licht/scenes/builtin.h"
+#include "licht/film/orders.h"
+#include "licht/render/renderer.h"
+#include "samples/scenes/builtin.h"
 #include "support/gpu_test.h"
 #include "support/render_test.h"
 

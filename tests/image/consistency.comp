@@ -6,7 +6,7 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(push_constant) uniform Push { SamplePush push; };
-layout(std430, binding = 30) buffer OutcomeBlock {
+layout(std430, binding = kFirstFreeBinding) buffer OutcomeBlock {
     uint hits;
     uint different;
     uint far_away;

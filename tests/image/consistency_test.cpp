@@ -5,10 +5,13 @@
 #include <cmath>
 #include <cstring>
 
-#include "licht/render/gpu_scene.h"
+#include "licht/film/error_estimate.h"
+#include "licht/on_device/gpu_scene.h"
 #include "licht/render/programs.h"
-#include "licht/scenes/builtin.h"
+#include "licht/render/renderer.h"
+#include "licht/shared/effects.h"
 #include "licht/spirv/consistency_comp.h"
+#include "samples/scenes/builtin.h"
 #include "support/first_hits.h"
 #include "support/gpu_test.h"
 #include "support/render_test.h"

@@ -1,6 +1,6 @@
 // What is said of a picture's error, where samples are spread evenly: neither less than the error is, nor
 // more than it was at half the samples.
-#include "licht/render/error_estimate.h"
+#include "licht/film/error_estimate.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,8 @@
 
 #include "licht/measure/metrics.h"
 #include "licht/measure/statistics.h"
-#include "licht/scenes/builtin.h"
+#include "licht/render/renderer.h"
+#include "samples/scenes/builtin.h"
 #include "support/gpu_test.h"
 #include "support/render_test.h"
 

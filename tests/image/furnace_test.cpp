@@ -10,9 +10,10 @@
 #include <vector>
 
 #include "licht/bvh/bvh.h"
-#include "licht/scenes/builtin.h"
-#include "licht/scenes/shapes.h"
+#include "licht/render/renderer.h"
 #include "licht/shared/bvh_numerics.h"
+#include "samples/scenes/builtin.h"
+#include "samples/scenes/shapes.h"
 #include "support/gpu_test.h"
 #include "support/render_test.h"
 

@@ -5,10 +5,14 @@
 #include <cmath>
 #include <random>
 
-#include "licht/render/gpu_scene.h"
+#include "licht/film/film.h"
+#include "licht/on_device/gpu_scene.h"
 #include "licht/scene/instancing.h"
-#include "licht/scenes/assembly.h"
-#include "licht/scenes/shapes.h"
+#include "licht/settings/settings.h"
+#include "licht/shared/effects.h"
+#include "licht/shared/geometry.h"
+#include "samples/scenes/assembly.h"
+#include "samples/scenes/shapes.h"
 #include "support/gpu_test.h"
 #include "support/render_test.h"
 

@@ -8,9 +8,11 @@
 #include <tuple>
 #include <vector>
 
-#include "licht/scenes/assembly.h"
-#include "licht/scenes/builtin.h"
-#include "licht/scenes/shapes.h"
+#include "licht/film/film.h"
+#include "licht/settings/settings.h"
+#include "samples/scenes/assembly.h"
+#include "samples/scenes/builtin.h"
+#include "samples/scenes/shapes.h"
 #include "support/render_test.h"
 
 namespace licht {

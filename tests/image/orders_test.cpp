@@ -1,6 +1,6 @@
 // The Neumann series term by term: every order's picture against its closed form, their sum against the
 // beauty picture, and what is said of the orders beyond.
-#include "licht/render/orders.h"
+#include "licht/film/orders.h"
 
 #include <gtest/gtest.h>
 
@@ -9,9 +9,10 @@
 #include <numbers>
 
 #include "licht/core/error.h"
-#include "licht/scenes/assembly.h"
-#include "licht/scenes/builtin.h"
-#include "licht/scenes/shapes.h"
+#include "licht/render/renderer.h"
+#include "samples/scenes/assembly.h"
+#include "samples/scenes/builtin.h"
+#include "samples/scenes/shapes.h"
 #include "support/gpu_test.h"
 #include "support/render_test.h"
 

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 
+#include "licht/film/film.h"
 #include "licht/image/exr.h"
 #include "licht/measure/ztest.h"
-#include "licht/scenes/builtin.h"
+#include "licht/settings/settings.h"
+#include "samples/scenes/builtin.h"
 #include "support/render_test.h"
 
 namespace licht {

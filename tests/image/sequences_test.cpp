@@ -9,10 +9,12 @@
 #include <vector>
 
 #include "licht/core/error.h"
-#include "licht/render/gpu_scene.h"
-#include "licht/scenes/assembly.h"
-#include "licht/scenes/builtin.h"
-#include "licht/scenes/shapes.h"
+#include "licht/on_device/gpu_scene.h"
+#include "licht/render/renderer.h"
+#include "licht/shared/light.h"
+#include "samples/scenes/assembly.h"
+#include "samples/scenes/builtin.h"
+#include "samples/scenes/shapes.h"
 #include "support/gpu_test.h"
 #include "support/render_test.h"
 #include "support/slope.h"

@@ -8,10 +8,13 @@
 #include <string>
 #include <vector>
 
+#include "licht/film/film.h"
 #include "licht/scene/effects.h"
 #include "licht/scene/emitter_shapes.h"
-#include "licht/scenes/assembly.h"
-#include "licht/scenes/shapes.h"
+#include "licht/settings/settings.h"
+#include "licht/shared/effects.h"
+#include "samples/scenes/assembly.h"
+#include "samples/scenes/shapes.h"
 #include "support/render_test.h"
 
 namespace licht {

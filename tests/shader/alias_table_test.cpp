@@ -1,5 +1,5 @@
 // What an alias table really does is what it says, and what was asked for.
-#include "licht/render/alias_table.h"
+#include "licht/light/alias_table.h"
 
 #include <gtest/gtest.h>
 
@@ -7,6 +7,8 @@
 #include <numeric>
 #include <random>
 #include <vector>
+
+#include "licht/shared/light.h"
 
 namespace licht {
 namespace {

@@ -10,6 +10,7 @@
 
 #include "bsdf_reference.h"
 #include "kernel.h"
+#include "licht/film/error_estimate.h"
 #include "licht/measure/statistics.h"
 #include "licht/spirv/bsdf_comp.h"
 #include "licht/spirv/bsdf_sampling_comp.h"

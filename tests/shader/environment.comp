@@ -6,8 +6,8 @@
 
 layout(local_size_x = 64) in;
 layout(push_constant) uniform Push { uint count; uint given; };  // given: look the questions up instead of sampling
-layout(std430, binding = 40) readonly buffer Questions { vec4 directions[]; };
-layout(std430, binding = 41) writeonly buffer Answers { vec4 answers[]; };  // direction, pdf; radiance, pdf when looked up; tries
+layout(std430, binding = kFirstFreeBinding) readonly buffer Questions { vec4 directions[]; };
+layout(std430, binding = kFirstFreeBinding + 1u) writeonly buffer Answers { vec4 answers[]; };  // direction, pdf; radiance, pdf when looked up; tries
 
 void main() {
     uint i = gl_GlobalInvocationID.x;

@@ -14,8 +14,12 @@
 #include "kernel.h"
 #include "licht/colour/transfer.h"
 #include "licht/gpu/upload_image.h"
-#include "licht/render/environment_table.h"
-#include "licht/shared/records.h"
+#include "licht/light/environment_table.h"
+#include "licht/settings/settings.h"
+#include "licht/shared/choices.h"
+#include "licht/shared/constants.h"
+#include "licht/shared/frame.h"
+#include "licht/shared/light.h"
 #include "licht/spirv/environment_comp.h"
 
 namespace licht {

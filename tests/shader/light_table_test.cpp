@@ -1,6 +1,6 @@
 // What the table of lights makes of a scene: which lights there are, how likely each is, and when a tree is
 // worth it.
-#include "licht/render/light_table.h"
+#include "licht/light/light_table.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,11 @@
 #include <cstring>
 #include <numbers>
 
-#include "licht/render/light_tree.h"
+#include "licht/light/light_tree.h"
 #include "licht/scene/effects.h"
+#include "licht/settings/settings.h"
+#include "licht/shared/effects.h"
+#include "licht/shared/light.h"
 
 namespace licht {
 namespace {

@@ -20,9 +20,9 @@ struct Answer {
     float looked_up;
     uint reserved;
 };
-layout(std430, binding = 40) readonly buffer Questions { Place places[]; };
-layout(std430, binding = 41) writeonly buffer Answers { Answer answers[]; };
-layout(std430, binding = 42) readonly buffer Trails { uint trails[]; };
+layout(std430, binding = kFirstFreeBinding) readonly buffer Questions { Place places[]; };
+layout(std430, binding = kFirstFreeBinding + 1u) writeonly buffer Answers { Answer answers[]; };
+layout(std430, binding = kFirstFreeBinding + 2u) readonly buffer Trails { uint trails[]; };
 
 void main() {
     uint i = gl_GlobalInvocationID.x;

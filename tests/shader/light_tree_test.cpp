@@ -1,5 +1,5 @@
 // The light tree: probabilities that sum to one, hide nothing and are what the device does.
-#include "licht/render/light_tree.h"
+#include "licht/light/light_tree.h"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,9 @@
 
 #include "histogram.h"
 #include "kernel.h"
-#include "licht/shared/records.h"
+#include "licht/shared/constants.h"
+#include "licht/shared/index.h"
+#include "licht/shared/light.h"
 #include "licht/spirv/light_tree_comp.h"
 
 namespace licht {

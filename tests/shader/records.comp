@@ -2,11 +2,17 @@
 #extension GL_GOOGLE_include_directive : require
 // Declares every record as the shaders do, for the comparison with their C++ twins.
 #include "shared/bvh_layout.h"
-#include "shared/records.h"
+#include "shared/counters.h"
+#include "shared/frame.h"
+#include "shared/geometry.h"
+#include "shared/light.h"
+#include "shared/material.h"
+#include "shared/queue_records.h"
+#include "shared/ray_records.h"
 
 layout(local_size_x = 1) in;
 
-layout(push_constant) uniform Push { SamplePush sample_push; TonemapPush tonemap_push; };
+layout(push_constant) uniform Push { SamplePush sample_push; TonemapPush tonemap_push; QueuePush queue_push; };
 layout(std430, binding = 0) readonly buffer FrameBlock { FrameRecord frame; };  // with its ViewRecord
 layout(std430, binding = 1) readonly buffer Vertices { VertexRecord vertices[]; };
 layout(std430, binding = 2) readonly buffer Instances { InstanceRecord instances[]; };
@@ -19,7 +25,9 @@ layout(std430, binding = 7) readonly buffer Alias { AliasRecord alias[]; };
 layout(std430, binding = 8) buffer Counters { CounterRecord counters; };
 layout(std430, binding = 9) readonly buffer Nodes { BvhNode nodes[]; };
 layout(std430, binding = 10) readonly buffer Transforms { InstanceTransformRecord transforms[]; };
-
 layout(std430, binding = 11) readonly buffer AdaptiveTiles { AdaptiveTileRecord adaptive_tiles[]; };
+layout(std430, binding = 12) readonly buffer Rays { RayRecord rays[]; };
+layout(std430, binding = 13) readonly buffer RayHits { RayHitRecord ray_hits[]; };
+layout(std430, binding = 14) readonly buffer Range { RayRange range; };
 
 void main() {}

@@ -13,7 +13,8 @@
 #include "histogram.h"
 #include "kernel.h"
 #include "licht/core/math.h"
-#include "licht/shared/records.h"
+#include "licht/shared/choices.h"
+#include "licht/shared/constants.h"
 #include "licht/spirv/sampler_comp.h"
 #include "support/slope.h"
 

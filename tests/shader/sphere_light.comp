@@ -19,8 +19,8 @@ struct Answer {
     uint met;         // the instance that is nearest on the ray, or without a sample along the normal; kNoIndex: none
     uint arrives;
 };
-layout(std430, binding = 30) readonly buffer Questions { Place places[]; };
-layout(std430, binding = 31) writeonly buffer Answers { Answer answers[]; };
+layout(std430, binding = kFirstFreeBinding) readonly buffer Questions { Place places[]; };
+layout(std430, binding = kFirstFreeBinding + 1u) writeonly buffer Answers { Answer answers[]; };
 
 void onRay(vec3 origin, vec3 direction, float t_max, bool any_hit) {}
 

@@ -10,8 +10,14 @@
 
 #include "histogram.h"
 #include "kernel.h"
-#include "licht/render/gpu_scene.h"
+#include "licht/on_device/gpu_scene.h"
 #include "licht/scene/effects.h"
+#include "licht/settings/settings.h"
+#include "licht/shared/choices.h"
+#include "licht/shared/constants.h"
+#include "licht/shared/effects.h"
+#include "licht/shared/frame.h"
+#include "licht/shared/index.h"
 #include "licht/spirv/sphere_light_comp.h"
 
 namespace licht {

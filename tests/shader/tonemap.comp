@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 // The curves for a list of colours: display light before the clamp to [0,1], then encoded.
 #include "pure/tonemap.glsl"
-#include "shared/records.h"
+#include "shared/choices.h"
 #include "shared/transfer.h"
 
 layout(local_size_x = 64) in;

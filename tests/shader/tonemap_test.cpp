@@ -10,7 +10,8 @@
 #include "kernel.h"
 #include "licht/colour/transfer.h"
 #include "licht/core/math.h"
-#include "licht/shared/records.h"
+#include "licht/settings/settings.h"
+#include "licht/shared/choices.h"
 #include "licht/spirv/tonemap_comp.h"
 
 namespace licht {

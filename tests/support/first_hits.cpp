@@ -4,11 +4,13 @@
 #include <span>
 
 #include "licht/gpu/commands.h"
-#include "licht/render/gpu_scene.h"
+#include "licht/on_device/gpu_scene.h"
 #include "licht/render/history.h"
 #include "licht/render/passes.h"
 #include "licht/render/programs.h"
 #include "licht/render/view.h"
+#include "licht/shared/effects.h"
+#include "licht/shared/frame.h"
 #include "support/gpu_test.h"
 
 namespace licht {

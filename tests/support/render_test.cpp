@@ -8,8 +8,9 @@
 
 #include "licht/image/exr.h"
 #include "licht/measure/ztest.h"
-#include "licht/scenes/assembly.h"
-#include "licht/scenes/shapes.h"
+#include "licht/render/renderer.h"
+#include "samples/scenes/assembly.h"
+#include "samples/scenes/shapes.h"
 #include "support/gpu_test.h"
 
 namespace licht {

@@ -3,8 +3,10 @@
 // failure leaves behind.
 #include <string>
 
+#include "licht/film/film.h"
 #include "licht/image/image.h"
-#include "licht/render/renderer.h"
+#include "licht/scene/scene.h"
+#include "licht/settings/settings.h"
 
 namespace licht {
 

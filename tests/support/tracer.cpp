@@ -5,9 +5,10 @@
 #include <span>
 
 #include "licht/gpu/commands.h"
-#include "licht/render/lanes.h"
+#include "licht/gpu/lanes.h"
+#include "licht/shared/constants.h"
+#include "licht/shared/index.h"
 #include "licht/shared/ray_records.h"
-#include "licht/shared/records.h"
 #include "licht/spirv/tracer_comp.h"
 #include "licht/spirv/tracer_refilled_comp.h"
 #include "support/gpu_test.h"

@@ -16,8 +16,8 @@ bool acceptHit(uint position, float t) {
 }
 #include "bound/traversal.glsl"
 
-layout(binding = 0, std430) readonly buffer rays { vec4 ray_data[]; };   // origin, t_min; direction, t_max
-layout(binding = 1, std430) writeonly buffer hits { vec4 hit_data[]; };  // position as bits, t, b1, b2; left alone where the walk was cut
+layout(binding = kFirstFreeBinding, std430) readonly buffer rays { vec4 ray_data[]; };   // origin, t_min; direction, t_max
+layout(binding = kFirstFreeBinding + 1u, std430) writeonly buffer hits { vec4 hit_data[]; };  // position as bits, t, b1, b2; left alone where the walk was cut
 
 void takeRay(uint i, out vec3 origin, out vec3 direction, out float t_min, out float t_max) {
     g_ray = i;

@@ -6,7 +6,7 @@
 
 #include "licht/bvh/bvh.h"
 #include "licht/gpu/program.h"
-#include "licht/render/gpu_bvh.h"
+#include "licht/on_device/gpu_bvh.h"
 
 namespace licht::test {
 

@@ -8,7 +8,7 @@
 bool passesThrough(TraceHit found) { return false; }
 #include "bound/ray_list.glsl"
 
-layout(binding = 2, std430) buffer lost { uint lost_rays; };
+layout(binding = kFirstFreeBinding + 2u, std430) buffer lost { uint lost_rays; };
 
 void main() {
     uint n = traceList(push.ray_count, push.any_hit != 0u);

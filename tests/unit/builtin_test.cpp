@@ -1,5 +1,5 @@
 // The built-in scenes: that they are sound, and that they are what they say.
-#include "licht/scenes/builtin.h"
+#include "samples/scenes/builtin.h"
 
 #include <gtest/gtest.h>
 
@@ -18,8 +18,9 @@
 
 #include "licht/scene/effects.h"
 #include "licht/scene/scene.h"
-#include "licht/scenes/shapes.h"
+#include "licht/shared/effects.h"
 #include "mesh_checks.h"
+#include "samples/scenes/shapes.h"
 
 namespace licht {
 namespace {

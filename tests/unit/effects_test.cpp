@@ -5,6 +5,8 @@
 #include <functional>
 #include <set>
 
+#include "licht/shared/effects.h"
+
 namespace licht {
 namespace {
 

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <optional>
 
-#include "licht/scenes/shapes.h"
+#include "samples/scenes/shapes.h"
 
 namespace licht {
 namespace {

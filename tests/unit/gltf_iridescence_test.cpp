@@ -5,6 +5,7 @@
 #include "licht/image/files.h"
 #include "licht/scene/effects.h"
 #include "licht/scene/gltf.h"
+#include "licht/shared/effects.h"
 
 namespace licht {
 namespace {

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "licht/scene/effects.h"
+#include "licht/shared/effects.h"
 
 namespace licht {
 namespace {

@@ -10,9 +10,10 @@
 #include <vector>
 
 #include "licht/scene/effects.h"
-#include "licht/scenes/builtin.h"
-#include "licht/scenes/shapes.h"
+#include "licht/shared/effects.h"
 #include "mesh_checks.h"
+#include "samples/scenes/builtin.h"
+#include "samples/scenes/shapes.h"
 
 namespace licht {
 namespace {

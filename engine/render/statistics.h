@@ -1,0 +1,31 @@
+#pragma once
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "licht/gpu/commands.h"
+
+namespace licht {
+
+struct RenderStatistics {
+    double bvh_seconds = 0.0;
+    double upload_seconds = 0.0;
+    double pipeline_seconds = 0.0;
+    std::uint64_t geometry_bytes = 0;  ///< on the device: vertices, triangles, instances and the BVH
+    std::map<std::string, gpu::PassTime> passes;
+    std::uint64_t primary_rays = 0;  ///< pixels rasterised times samples
+    std::uint64_t bounce_rays = 0;
+    std::uint64_t shadow_rays = 0;
+    std::uint64_t nonfinite_samples = 0;
+    /// Samples in which a driver that limits the loops of a shader ended a BVH traversal early: they may have
+    /// missed a surface.
+    std::uint64_t cut_walks = 0;
+    /// Directions to the environment that rejection drew, and how many it tried for them.
+    std::uint64_t environment_samples = 0;
+    std::uint64_t environment_tries = 0;
+    std::vector<std::uint64_t>
+        order_rays;  ///< per order T^i Le, where they are kept: rays that looked for it
+};
+
+}  // namespace licht

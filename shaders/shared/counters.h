@@ -1,0 +1,19 @@
+// What is counted beside the picture.
+#ifndef LICHT_SHARED_COUNTERS_H
+#define LICHT_SHARED_COUNTERS_H
+#include "seam.h"
+
+LICHT_SHARED_BEGIN
+
+// Counted on the device, summed on the host.
+struct CounterRecord {
+    uint bounce_rays;
+    uint shadow_rays;
+    uint nonfinite_samples;
+    uint cut_walks;            // samples in which the driver ended a traversal before it was done
+    uint environment_samples;  // directions drawn by rejection, and how many were tried for them
+    uint environment_tries;
+};
+
+LICHT_SHARED_END
+#endif
