@@ -191,7 +191,7 @@ TEST(Records, deviceAndHostAgreeOnEveryMember) {
 
 TEST(Records, noneIsForgotten) {
     std::set<std::string> declared;
-    const auto folder = std::filesystem::path(__FILE__).parent_path() / ".." / ".." / "shaders" / "shared";
+    const auto folder = std::filesystem::path(LICHT_SOURCE) / "shaders" / "shared";
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
         std::ifstream stream(entry.path());
         ASSERT_TRUE(stream) << entry.path();

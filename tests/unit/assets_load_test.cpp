@@ -22,7 +22,7 @@ fs::path assetFolder() {
     if (const char* named = std::getenv("LICHT_ASSETS")) {
         return named;
     }
-    return fs::path(__FILE__).parent_path().parent_path().parent_path().parent_path() / "shared" / "assets";
+    return fs::path(LICHT_SOURCE) / ".." / "shared" / "assets";
 }
 
 /// The model's file in its plain variant; the compressed one where it has no other.
