@@ -49,8 +49,8 @@ std::vector<double> emittedStrength(const Scene& scene) {
     std::vector<double> result;
     for (const Material& m : scene.materials) {
         vec3 value = m.unlit ? vec3(0.0F) : m.emission;
-        if (strength(value) > 0.0 && m.emissive_texture.present())
-            value *= mean(scene.textures[m.emissive_texture.texture]);
+        if (strength(value) > 0.0 && m.slots[kSlotEmissive].present())
+            value *= mean(scene.textures[m.slots[kSlotEmissive].texture]);
         result.push_back((m.double_sided ? 2.0 : 1.0) * strength(value));
     }
     return result;
@@ -92,11 +92,11 @@ void addShapes(const Scene& scene, bool spheres, LightTable& table, std::vector<
             continue;
         }
         const uint flags = (material.double_sided ? kLightDoubleSided : 0U) |
-                           (material.emissive_texture.present() ? kLightTextured : 0U);
+                           (material.slots[kSlotEmissive].present() ? kLightTextured : 0U);
         for (uint k = 0; k < mesh.triangles.size(); ++k) {
             const Corners p = worldCorners(mesh, instance.world_from_object, k);
             light.primitive = k;
-            if (k + 1 < mesh.triangles.size() && !material.emissive_texture.present()) {
+            if (k + 1 < mesh.triangles.size() && !material.slots[kSlotEmissive].present()) {
                 if (const std::optional<Rectangle> r =
                         rectangleOf(p, worldCorners(mesh, instance.world_from_object, k + 1))) {
                     light.kind = kLightRectangle | flags;

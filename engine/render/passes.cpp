@@ -17,7 +17,7 @@ void recordGbuffer(gpu::Commands& commands, const gpu::Program& program, const g
                       pass.render(std::span(&target, 1), &history.depth, [&] {
                           pass.bind(program, bindings);
                           pass.push(program, std::as_bytes(std::span(&push, 1)));
-                          for (const GpuScene::Draw& draw : scene.draws()) {
+                          for (const Draw& draw : scene.draws()) {
                               vkCmdSetCullMode(pass.commandBuffer(), draw.cull);
                               vkCmdDraw(pass.commandBuffer(), draw.vertex_count, draw.instance_count,
                                         draw.first_vertex, draw.first_instance);

@@ -9,6 +9,7 @@
 #include "licht/colour/transfer.h"
 #include "licht/scene/emitter_shapes.h"
 #include "licht/scene/instancing.h"
+#include "licht/scene/slot_table.h"
 
 namespace licht {
 
@@ -66,10 +67,10 @@ bool dielectricReflects(const Material& m) {
 }
 
 bool iridescent(const Material& m) {
-    const float thickest = m.iridescence_thickness_texture.present()
-                               ? std::max(m.iridescence_thickness_minimum, m.iridescence_thickness_maximum)
-                               : m.iridescence_thickness_maximum;
-    return !m.unlit && m.iridescence > 0.0F && thickest > 0.0F;
+    const float thickest = m.slots[kSlotIridescenceThickness].present()
+                               ? std::max(m.iridescence.thickness_minimum, m.iridescence.thickness_maximum)
+                               : m.iridescence.thickness_maximum;
+    return !m.unlit && m.iridescence.factor > 0.0F && thickest > 0.0F;
 }
 
 /// A thin film reflects by itself, whatever lies under it.
@@ -87,47 +88,42 @@ bool alphaMatters(const Material& m, const Mesh& mesh) {
         return false;
     }
     const float whole = m.alpha_mode == AlphaMode::mask ? m.alpha_cutoff : 1.0F;
-    return m.base_color_texture.present() || hasColors(mesh) || m.base_color.w < whole;
+    return m.slots[kSlotBaseColor].present() || hasColors(mesh) || m.base_color.w < whole;
 }
 
 bool bendsNormals(const Material& m) {
-    return !m.unlit && m.normal_texture.present() && m.normal_scale != 0.0F;
+    return !m.unlit && m.slots[kSlotNormal].present() && m.normal_scale != 0.0F;
 }
 
-/// Only slots that can change a picture.
-struct NamedSlot {
-    const TextureSlot* slot;
-    std::string_view name;
-};
-std::vector<NamedSlot> influentialSlots(const Material& m, const Mesh& mesh) {
-    std::vector<NamedSlot> slots;
-    const auto add = [&slots](const TextureSlot& slot, std::string_view name, bool influential) {
-        if (slot.present() && influential) {
-            slots.push_back({&slot, name});
-        }
+/// Whether what a slot reads can change a picture, slot by slot.
+using Influence = bool (*)(const Material&, const Mesh&);
+constexpr std::array<Influence, kSlotCount> kInfluence = [] {
+    std::array<Influence, kSlotCount> table{};
+    table[kSlotBaseColor] = [](const Material& m, const Mesh& mesh) {
+        return anyPositive(vec3(m.base_color)) || alphaMatters(m, mesh);
     };
-    add(m.base_color_texture, "base colour", anyPositive(vec3(m.base_color)) || alphaMatters(m, mesh));
-    add(m.metallic_roughness_texture, "metallic-roughness", glossy(m));
-    add(m.normal_texture, "normal", bendsNormals(m));
-    add(m.emissive_texture, "emissive", emits(m));
-    add(m.specular_texture, "specular", !m.unlit && dielectricReflects(m));
-    add(m.specular_color_texture, "specular colour", !m.unlit && dielectricReflects(m));
-    add(m.iridescence_texture, "iridescence", iridescent(m));
-    add(m.iridescence_thickness_texture, "iridescence thickness", iridescent(m));
-    return slots;
-}
+    table[kSlotMetallicRoughness] = [](const Material& m, const Mesh&) { return glossy(m); };
+    table[kSlotNormal] = [](const Material& m, const Mesh&) { return bendsNormals(m); };
+    table[kSlotEmissive] = [](const Material& m, const Mesh&) { return emits(m); };
+    table[kSlotSpecular] = [](const Material& m, const Mesh&) { return !m.unlit && dielectricReflects(m); };
+    table[kSlotSpecularColor] = table[kSlotSpecular];
+    table[kSlotIridescence] = [](const Material& m, const Mesh&) { return iridescent(m); };
+    table[kSlotIridescenceThickness] = table[kSlotIridescence];
+    return table;
+}();
+static_assert(std::find(kInfluence.begin(), kInfluence.end(), nullptr) == kInfluence.end());
 
 /// How much of a surface an emissive texture lights: the mean of its emission over the maximum. 1 without a
 /// texture, 0 for a black one.
 double litShare(const Scene& scene, const Material& m) {
-    if (!m.emissive_texture.present()) {
+    if (!m.slots[kSlotEmissive].present()) {
         return 1.0;
     }
     std::array<double, 256> linear{};
     for (std::size_t i = 0; i < linear.size(); ++i) {
         linear.at(i) = static_cast<double>(linearFromSrgb(static_cast<float>(i) / 255.0F));
     }
-    const Texture& texture = scene.textures[m.emissive_texture.texture];
+    const Texture& texture = scene.textures[m.slots[kSlotEmissive].texture];
     const std::size_t channel_bytes = texture.bits / 8;
     const std::size_t texels = std::size_t{texture.width} * texture.height;
     double sum = 0.0;
@@ -193,11 +189,15 @@ private:
             return;
         }
         const Material& m = scene_.materials[mesh.material];
-        for (const NamedSlot& named : influentialSlots(m, mesh)) {
-            call(kEffectTextures, fmt::format("material '{}' has a {} texture", m.name, named.name));
-            if (named.slot->uv_set > 0) {
+        for (const SlotInfo& info : kSlotTable) {
+            const TextureSlot& slot = m.slots[info.kind];
+            if (!slot.present() || !kInfluence[info.kind](m, mesh)) {
+                continue;
+            }
+            call(kEffectTextures, fmt::format("material '{}' has a {} texture", m.name, info.name));
+            if (slot.uv_set > 0) {
                 call(kEffectExtraUvSets, fmt::format("material '{}' reads its {} texture by TEXCOORD_{}",
-                                                     m.name, named.name, named.slot->uv_set));
+                                                     m.name, info.name, slot.uv_set));
             }
         }
         if (bendsNormals(m)) {

@@ -274,20 +274,15 @@ void removeUnplaceable(Asset& asset, Mesh& mesh, const std::string& object) {
 }
 
 void complete(Asset& asset, Mesh& mesh, const Material& material, const std::string& object) {
-    for (const TextureSlot* slot :
-         {&material.base_color_texture, &material.metallic_roughness_texture, &material.normal_texture,
-          &material.emissive_texture, &material.specular_texture, &material.specular_color_texture}) {
-        if (!slot->present()) {
-            continue;
-        }
-        if (mesh.uv_sets.size() <= slot->uv_set || mesh.uv_sets[slot->uv_set].empty()) {
-            setUvs(mesh, slot->uv_set, std::vector<vec2>(mesh.positions.size(), vec2(0.0F)));
+    for (const TextureSlot& slot : material.slots) {
+        if (slot.present() && (mesh.uv_sets.size() <= slot.uv_set || mesh.uv_sets[slot.uv_set].empty())) {
+            setUvs(mesh, slot.uv_set, std::vector<vec2>(mesh.positions.size(), vec2(0.0F)));
             asset.warn(fmt::format("{}: material '{}' reads TEXCOORD_{}, which is not there and taken as 0",
-                                   object, material.name, slot->uv_set));
+                                   object, material.name, slot.uv_set));
         }
     }
-    if (material.normal_texture.present() && material.normal_scale != 0.0F && mesh.tangents.empty()) {
-        deriveTangents(mesh, material.normal_texture);
+    if (material.slots[kSlotNormal].present() && material.normal_scale != 0.0F && mesh.tangents.empty()) {
+        deriveTangents(mesh, material.slots[kSlotNormal]);
     }
 }
 

@@ -6,12 +6,15 @@
 #include <array>
 #include <cmath>
 
+#include "licht/scene/slot_table.h"
+
 namespace licht::gltf {
 namespace {
 
 constexpr double kUnlimited = static_cast<double>(std::numeric_limits<float>::max());
 
-/// No film is thicker (a millimetre, in nm), nor of a higher index: the square of their product is a float.
+/// No thin film is thicker (a millimetre, in nm), nor of a higher index: the square of their product is a
+/// float.
 constexpr double kMaxFilm = 1e6;
 
 double number(const tinygltf::Value& object, const std::string& key, double fallback) {
@@ -108,10 +111,15 @@ Material MaterialLoader::convert(const tinygltf::Material& source, const std::st
     const auto textured = [&](const auto& info) {
         return slot(info.index, info.texCoord, info.extensions, object);
     };
-    material.base_color_texture = textured(pbr.baseColorTexture);
-    material.metallic_roughness_texture = textured(pbr.metallicRoughnessTexture);
-    material.normal_texture = textured(source.normalTexture);
-    material.emissive_texture = textured(source.emissiveTexture);
+    material.slots[kSlotBaseColor] = textured(pbr.baseColorTexture);
+    material.slots[kSlotMetallicRoughness] = textured(pbr.metallicRoughnessTexture);
+    material.slots[kSlotNormal] = textured(source.normalTexture);
+    material.slots[kSlotEmissive] = textured(source.emissiveTexture);
+    for (const SlotInfo& info : kSlotTable) {
+        if (const auto* extension = find(source.extensions, std::string(info.extension))) {
+            material.slots[info.kind] = slot(*extension, std::string(info.key), object);
+        }
+    }
     readExtensions(source, object, material);
     return material;
 }
@@ -135,23 +143,19 @@ void MaterialLoader::readExtensions(const tinygltf::Material& source, const std:
             material.specular_color[i] =
                 clamped(color.at(static_cast<std::size_t>(i)), 0, kUnlimited, object, "specularColorFactor");
         }
-        material.specular_texture = slot(*specular, "specularTexture", object);
-        material.specular_color_texture = slot(*specular, "specularColorTexture", object);
     }
-    if (const auto* film = find(source.extensions, "KHR_materials_iridescence")) {
+    if (const auto* thin_film = find(source.extensions, "KHR_materials_iridescence")) {
         const auto read = [&](const char* key, double fallback, double lower, double upper) {
-            return clamped(number(*film, key, fallback), lower, upper, object, key);
+            return clamped(number(*thin_film, key, fallback), lower, upper, object, key);
         };
-        material.iridescence = read("iridescenceFactor", 0.0, 0, 1);
-        material.iridescence_ior = read("iridescenceIor", 1.3, 1, kMaxFilm);
-        material.iridescence_thickness_minimum = read("iridescenceThicknessMinimum", 100.0, 0, kMaxFilm);
-        material.iridescence_thickness_maximum = read("iridescenceThicknessMaximum", 400.0, 0, kMaxFilm);
-        material.iridescence_texture = slot(*film, "iridescenceTexture", object);
-        material.iridescence_thickness_texture = slot(*film, "iridescenceThicknessTexture", object);
+        material.iridescence.factor = read("iridescenceFactor", 0.0, 0, 1);
+        material.iridescence.ior = read("iridescenceIor", 1.3, 1, kMaxFilm);
+        material.iridescence.thickness_minimum = read("iridescenceThicknessMinimum", 100.0, 0, kMaxFilm);
+        material.iridescence.thickness_maximum = read("iridescenceThicknessMaximum", 400.0, 0, kMaxFilm);
     }
 }
 
-TextureSlot MaterialLoader::slot(const tinygltf::Value& extension, const char* name,
+TextureSlot MaterialLoader::slot(const tinygltf::Value& extension, const std::string& name,
                                  const std::string& object) {
     if (!extension.Has(name) || !extension.Get(name).IsObject()) {
         return {};

@@ -36,7 +36,7 @@ private:
     void readExtensions(const tinygltf::Material& source, const std::string& object, Material& material);
     TextureSlot slot(int texture, int uv_set, const tinygltf::ExtensionMap& extensions,
                      const std::string& object);
-    TextureSlot slot(const tinygltf::Value& extension, const char* name, const std::string& object);
+    TextureSlot slot(const tinygltf::Value& extension, const std::string& name, const std::string& object);
     float clamped(double value, double lower, double upper, const std::string& object, std::string_view what);
 
     Asset& asset_;

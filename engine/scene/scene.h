@@ -5,6 +5,7 @@
 // candela; directional lights in lux. They meet without a factor: a light of I candela at distance r gives I
 // cos(theta) / r^2 lux, and a Lambertian surface of albedo rho under E lux has rho E / pi cd/m^2. Colours are
 // linear Rec. 709.
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -13,6 +14,8 @@
 #include "licht/core/math.h"
 #include "licht/image/image.h"
 #include "licht/shared/bvh_numerics.h"
+#include "licht/shared/material.h"
+#include "licht/shared/slots.h"
 
 namespace licht {
 
@@ -51,7 +54,7 @@ struct TextureSlot {
 
 enum class AlphaMode : std::uint32_t { opaque, mask, blend };
 
-/// glTF 2.0 metallic-roughness with KHR_materials_{emissive_strength, unlit, specular, ior, iridescence}.
+/// glTF 2.0 metallic-roughness with the material extensions of scene/gltf_extensions.h.
 struct Material {
     std::string name;
     vec4 base_color{1.0F};
@@ -66,18 +69,8 @@ struct Material {
     float ior = 1.5F;  ///< 0: the specular-glossiness rule of KHR_materials_ior, Fresnel = 1
     float specular = 1.0F;
     vec3 specular_color{1.0F};
-    float iridescence = 0.0F;                      ///< share of the thin film, 0 to 1
-    float iridescence_ior = 1.3F;                  ///< of the film, at least 1
-    float iridescence_thickness_minimum = 100.0F;  ///< nm, where the thickness texture is 0
-    float iridescence_thickness_maximum = 400.0F;  ///< nm, where it is 1, and without one
-    TextureSlot base_color_texture;                ///< sRGB, alpha linear
-    TextureSlot metallic_roughness_texture;        ///< linear: G roughness, B metallic
-    TextureSlot normal_texture;                    ///< linear
-    TextureSlot emissive_texture;                  ///< sRGB
-    TextureSlot specular_texture;                  ///< linear, A
-    TextureSlot specular_color_texture;            ///< sRGB
-    TextureSlot iridescence_texture;               ///< linear, R
-    TextureSlot iridescence_thickness_texture;     ///< linear, G
+    IridescenceRecord iridescence{0.0F, 1.3F, 100.0F, 400.0F};
+    std::array<TextureSlot, kSlotCount> slots{};  ///< by kSlot...
 };
 
 /// Indexed triangles with one material. Every attribute array is empty or as long as positions.

@@ -59,17 +59,14 @@ void validateMaterials(const Scene& scene) {
                 "normal scale or alpha cutoff is not finite");
         require(m.ior == 0.0F || (m.ior >= 1.0F && finite(m.ior)), "material", i, m.name,
                 "the index of refraction is neither 0 nor at least 1");
-        require(inUnit(m.iridescence) && m.iridescence_ior >= 1.0F && finite(m.iridescence_ior), "material",
-                i, m.name, "iridescence lies outside [0,1] or its index of refraction below 1");
-        require(notNegative(vec3(m.iridescence_thickness_minimum, m.iridescence_thickness_maximum, 0.0F)),
+        require(inUnit(m.iridescence.factor) && m.iridescence.ior >= 1.0F && finite(m.iridescence.ior),
+                "material", i, m.name, "iridescence lies outside [0,1] or its index of refraction below 1");
+        require(notNegative(vec3(m.iridescence.thickness_minimum, m.iridescence.thickness_maximum, 0.0F)),
                 "material", i, m.name, "a film's thickness is negative or not finite");
-        for (const TextureSlot* slot :
-             {&m.base_color_texture, &m.metallic_roughness_texture, &m.normal_texture, &m.emissive_texture,
-              &m.specular_texture, &m.specular_color_texture, &m.iridescence_texture,
-              &m.iridescence_thickness_texture}) {
-            require(!slot->present() || slot->texture < scene.textures.size(), "material", i, m.name,
+        for (const TextureSlot& slot : m.slots) {
+            require(!slot.present() || slot.texture < scene.textures.size(), "material", i, m.name,
                     "it names a texture that is not there");
-            require(finite(slot->u_from_uv) && finite(slot->v_from_uv), "material", i, m.name,
+            require(finite(slot.u_from_uv) && finite(slot.v_from_uv), "material", i, m.name,
                     "a texture transform is not finite");
         }
     }

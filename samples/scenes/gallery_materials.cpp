@@ -50,7 +50,7 @@ Materials addMaterials(Scene& scene) {
     Materials m{};
     const auto add = [&](Material material) { return addMaterial(scene, std::move(material)); };
     const auto printed = [&](Material material, Texture texture) {
-        material.base_color_texture = slot(addTexture(scene, std::move(texture)));
+        material.slots[kSlotBaseColor] = slot(addTexture(scene, std::move(texture)));
         return add(std::move(material));
     };
 
@@ -59,16 +59,16 @@ Materials addMaterials(Scene& scene) {
     m.ceiling = add(matte("ceiling", {0.80F, 0.77F, 0.72F}));
 
     Material parquet = glossy("parquet", vec3(1.0F), 1.0F);
-    parquet.base_color_texture = slot(addTexture(scene, parquetColor()));
-    parquet.normal_texture = slot(addTexture(scene, parquetNormal()));
-    parquet.metallic_roughness_texture = slot(addTexture(scene, parquetRoughness()));
+    parquet.slots[kSlotBaseColor] = slot(addTexture(scene, parquetColor()));
+    parquet.slots[kSlotNormal] = slot(addTexture(scene, parquetNormal()));
+    parquet.slots[kSlotMetallicRoughness] = slot(addTexture(scene, parquetRoughness()));
     m.parquet = add(std::move(parquet));
     m.tiles = printed(glossy("tiles", vec3(1.0F), 0.3F), checkerTiles());
 
     const std::uint32_t grain = addTexture(scene, woodGrain());
     const auto wood = [&](std::string name, const vec3& tint, float roughness, float scale) {
         Material material = glossy(std::move(name), tint, roughness);
-        material.base_color_texture = slot(grain, scale);
+        material.slots[kSlotBaseColor] = slot(grain, scale);
         return add(std::move(material));
     };
     m.dark_wood = wood("stained beams", {0.8F, 0.72F, 0.64F}, 0.6F, 1.0F);
@@ -84,7 +84,7 @@ Materials addMaterials(Scene& scene) {
     const std::uint32_t weave = addTexture(scene, fabricNormal());
     const auto fabric = [&](std::string name, const vec3& color) {
         Material material = matte(std::move(name), color);
-        material.normal_texture = slot(weave, 10.0F);
+        material.slots[kSlotNormal] = slot(weave, 10.0F);
         return add(std::move(material));
     };
     m.upholstery = fabric("rust upholstery", {0.46F, 0.15F, 0.065F});
@@ -107,9 +107,9 @@ Materials addMaterials(Scene& scene) {
     Material leaf = glossy("leaves", vec3(1.0F), 0.45F);
     leaf.alpha_mode = AlphaMode::mask;
     leaf.double_sided = true;
-    leaf.base_color_texture = slot(addTexture(scene, leafCutout()));
-    leaf.base_color_texture.wrap_u = Wrap::clamp;
-    leaf.base_color_texture.wrap_v = Wrap::clamp;
+    leaf.slots[kSlotBaseColor] = slot(addTexture(scene, leafCutout()));
+    leaf.slots[kSlotBaseColor].wrap_u = Wrap::clamp;
+    leaf.slots[kSlotBaseColor].wrap_v = Wrap::clamp;
     m.leaf = add(std::move(leaf));
     m.stem = add(matte("stems", {0.10F, 0.19F, 0.06F}));
     m.earth = add(matte("earth", {0.06F, 0.04F, 0.03F}));

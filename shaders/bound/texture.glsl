@@ -1,4 +1,4 @@
-// Material textures: all texels lie in pages of one address space and are filtered here, so that no device needs bindless images and every
+// Textures: all texels lie in pages of one address space and are filtered here, so that no device needs bindless images and every
 // device filters with the same precision.
 #ifndef LICHT_BOUND_TEXTURE_GLSL
 #define LICHT_BOUND_TEXTURE_GLSL
@@ -6,7 +6,6 @@
 #include "bound/scene.glsl"
 #include "shared/bindings.h"
 #include "shared/constants.h"
-#include "shared/index.h"
 #include "shared/material.h"
 
 layout(std430, binding = kBindingTextures) readonly buffer Textures { TextureRecord textures[]; };
@@ -15,8 +14,7 @@ layout(std430, binding = kBindingSrgbTable) readonly buffer SrgbTable { float sr
 
 // What of the texture code the scene calls for: drivers without branches run everything that is compiled in.
 layout(constant_id = kConstantTexturePages) const uint kTexturePagesUsed = kTexturePages;
-layout(constant_id = kConstantTextureSlotKinds) const uint kTextureSlotKinds = 0xffffffffu;  // bits 1 << kSlot...
-layout(constant_id = kConstantWideTexels) const bool kWideTexels = true;               // 16 bits per channel
+layout(constant_id = kConstantWideTexels) const bool kWideTexels = true;  // 16 bits per channel
 
 // The page differs from lane to lane, which core Vulkan does not let index an array of buffers.
 uint texelWord(uint page, uint word) {
@@ -63,9 +61,8 @@ vec4 texelAt(TextureRecord t, ivec2 at, uint flags) {
     return vec4(srgb_table[b.x], srgb_table[b.y], srgb_table[b.z], float(b.w) / 255.0);
 }
 
-// Filtered value of a slot of that kind (kSlot...) at its transformed coordinates; white where the slot is empty.
-vec4 sampleSlot(uint kind, TextureSlotRecord slot, uvec3 v, vec3 weights) {
-    if (!kTextures || (kTextureSlotKinds & (1u << kind)) == 0u || slot.texture == kNoIndex) return vec4(1.0);
+// Filtered value of a slot's texture at its transformed coordinates.
+vec4 sampleTexture(TextureSlotRecord slot, uvec3 v, vec3 weights) {
     vec3 uv1 = vec3(uvAt(v, weights, slot.flags >> kSlotUvSetShift), 1.0);
     vec2 uv = vec2(dot(slot.u_from_uv, uv1), dot(slot.v_from_uv, uv1));
     TextureRecord t = textures[slot.texture];

@@ -1,19 +1,9 @@
-// Materials, their texture slots and the textures.
+// Materials, their texture slots, the extensions' blocks, and the textures.
 #ifndef LICHT_SHARED_MATERIAL_H
 #define LICHT_SHARED_MATERIAL_H
 #include "index.h"
 
 LICHT_SHARED_BEGIN
-
-// Kinds of texture slots.
-LICHT_CONSTANT uint kSlotBaseColor = 0u;
-LICHT_CONSTANT uint kSlotMetallicRoughness = 1u;
-LICHT_CONSTANT uint kSlotNormal = 2u;
-LICHT_CONSTANT uint kSlotEmissive = 3u;
-LICHT_CONSTANT uint kSlotSpecular = 4u;
-LICHT_CONSTANT uint kSlotSpecularColor = 5u;
-LICHT_CONSTANT uint kSlotIridescence = 6u;
-LICHT_CONSTANT uint kSlotIridescenceThickness = 7u;
 
 LICHT_CONSTANT uint kSlotLinear = 1u;      // bilinear filter
 LICHT_CONSTANT uint kSlotWrapUShift = 1u;  // two bits each: 0 repeat, 1 clamp, 2 mirror
@@ -23,10 +13,11 @@ LICHT_CONSTANT uint kSlotUvSetShift = 8u;
 
 struct TextureSlotRecord {
     vec3 u_from_uv;
-    uint texture;  // kNoIndex: none
+    uint texture;
     vec3 v_from_uv;
     uint flags;
 };
+LICHT_CONSTANT uint kSlotWords = 2u;  // of four
 
 LICHT_CONSTANT uint kTexelsPerPageLog2 = 24u;  // 64 MiB of RGBA8 a page: half the storage buffer that every device guarantees
 LICHT_CONSTANT uint kTexturePages = 8u;
@@ -58,23 +49,18 @@ struct MaterialRecord {
     float normal_scale;
     float alpha_cutoff;
     uint flags;
-    float iridescence;
-    float iridescence_ior;
-    float iridescence_thickness_minimum;  // nm
-    float iridescence_thickness_maximum;  // and without a texture
-    uint reserved0;
-    uint reserved1;
-    uint reserved2;
-    TextureSlotRecord base_color_slot;
-    TextureSlotRecord metallic_roughness_slot;
-    TextureSlotRecord normal_slot;
-    TextureSlotRecord emissive_slot;
-    TextureSlotRecord specular_slot;
-    TextureSlotRecord specular_color_slot;
-    TextureSlotRecord iridescence_slot;
-    TextureSlotRecord iridescence_thickness_slot;
+    uint slots;         // bits 1 << kSlot... of those that read a texture
+    uint blocks;        // bits 1 << kBlock... of those that are there
+    uint first_detail;  // where its slots stand in the list of details, in order; its blocks follow
 };
-LICHT_CONSTANT uint kMaterialTexels = 22u;  // of four words
+LICHT_CONSTANT uint kMaterialTexels = 5u;  // of four words
+
+struct IridescenceRecord {
+    float factor;             // share of the thin film
+    float ior;                // of the film, at least 1
+    float thickness_minimum;  // nm, where the thickness texture is 0
+    float thickness_maximum;  // nm, where it is 1, and without one
+};
 
 LICHT_SHARED_END
 #endif

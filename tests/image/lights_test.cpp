@@ -167,8 +167,8 @@ TEST(TexturedLight, IsWhatScatteringFinds) {
     stripes.bits = 8;
     stripes.bytes = {255, 255, 255, 255, 0, 0, 0, 255};
     scene.textures = {stripes};
-    scene.materials[1].emissive_texture.texture = 0;
-    scene.materials[1].emissive_texture.linear = false;
+    scene.materials[1].slots[kSlotEmissive].texture = 0;
+    scene.materials[1].slots[kSlotEmissive].linear = false;
     addReceiver(scene, 0.5F);
     addWall(scene, 2);
     const Camera camera = downCamera(vec3(0.0F), 0.5F, 3.0F);

@@ -28,6 +28,7 @@ layout(std430, binding = 10) readonly buffer Transforms { InstanceTransformRecor
 layout(std430, binding = 11) readonly buffer AdaptiveTiles { AdaptiveTileRecord adaptive_tiles[]; };
 layout(std430, binding = 12) readonly buffer Rays { RayRecord rays[]; };
 layout(std430, binding = 13) readonly buffer RayHits { RayHitRecord ray_hits[]; };
+layout(std430, binding = 16) readonly buffer Iridescence { IridescenceRecord iridescence[]; };
 layout(std430, binding = 14) readonly buffer Range { RayRange range; };
 
 void main() {}

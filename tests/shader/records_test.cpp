@@ -77,21 +77,16 @@ std::map<std::string, Record> hostRecords() {
                      LICHT_MEMBER(TextureRecord, height), LICHT_MEMBER(TextureRecord, words_per_texel),
                      LICHT_MEMBER(TextureRecord, reserved0), LICHT_MEMBER(TextureRecord, reserved1),
                      LICHT_MEMBER(TextureRecord, reserved2)),
-        LICHT_RECORD(
-            MaterialRecord, LICHT_MEMBER(MaterialRecord, base_color), LICHT_MEMBER(MaterialRecord, emission),
-            LICHT_MEMBER(MaterialRecord, metallic), LICHT_MEMBER(MaterialRecord, specular_color),
-            LICHT_MEMBER(MaterialRecord, roughness), LICHT_MEMBER(MaterialRecord, specular),
-            LICHT_MEMBER(MaterialRecord, dielectric_f0), LICHT_MEMBER(MaterialRecord, normal_scale),
-            LICHT_MEMBER(MaterialRecord, alpha_cutoff), LICHT_MEMBER(MaterialRecord, flags),
-            LICHT_MEMBER(MaterialRecord, iridescence), LICHT_MEMBER(MaterialRecord, iridescence_ior),
-            LICHT_MEMBER(MaterialRecord, iridescence_thickness_minimum),
-            LICHT_MEMBER(MaterialRecord, iridescence_thickness_maximum),
-            LICHT_MEMBER(MaterialRecord, reserved0), LICHT_MEMBER(MaterialRecord, reserved1),
-            LICHT_MEMBER(MaterialRecord, reserved2), LICHT_MEMBER(MaterialRecord, base_color_slot),
-            LICHT_MEMBER(MaterialRecord, metallic_roughness_slot), LICHT_MEMBER(MaterialRecord, normal_slot),
-            LICHT_MEMBER(MaterialRecord, emissive_slot), LICHT_MEMBER(MaterialRecord, specular_slot),
-            LICHT_MEMBER(MaterialRecord, specular_color_slot), LICHT_MEMBER(MaterialRecord, iridescence_slot),
-            LICHT_MEMBER(MaterialRecord, iridescence_thickness_slot)),
+        LICHT_RECORD(MaterialRecord, LICHT_MEMBER(MaterialRecord, base_color),
+                     LICHT_MEMBER(MaterialRecord, emission), LICHT_MEMBER(MaterialRecord, metallic),
+                     LICHT_MEMBER(MaterialRecord, specular_color), LICHT_MEMBER(MaterialRecord, roughness),
+                     LICHT_MEMBER(MaterialRecord, specular), LICHT_MEMBER(MaterialRecord, dielectric_f0),
+                     LICHT_MEMBER(MaterialRecord, normal_scale), LICHT_MEMBER(MaterialRecord, alpha_cutoff),
+                     LICHT_MEMBER(MaterialRecord, flags), LICHT_MEMBER(MaterialRecord, slots),
+                     LICHT_MEMBER(MaterialRecord, blocks), LICHT_MEMBER(MaterialRecord, first_detail)),
+        LICHT_RECORD(IridescenceRecord, LICHT_MEMBER(IridescenceRecord, factor),
+                     LICHT_MEMBER(IridescenceRecord, ior), LICHT_MEMBER(IridescenceRecord, thickness_minimum),
+                     LICHT_MEMBER(IridescenceRecord, thickness_maximum)),
         LICHT_RECORD(LightRecord, LICHT_MEMBER(LightRecord, position), LICHT_MEMBER(LightRecord, kind),
                      LICHT_MEMBER(LightRecord, direction), LICHT_MEMBER(LightRecord, range),
                      LICHT_MEMBER(LightRecord, intensity), LICHT_MEMBER(LightRecord, cone_scale),
@@ -156,8 +151,7 @@ std::map<std::string, Record> hostRecords() {
 
 /// Records that are members of others, by the members' names: reflection lists what is in them.
 std::string nestedRecord(const std::string& member) {
-    if (member.ends_with("view")) return "ViewRecord";
-    return member.ends_with("_slot") ? "TextureSlotRecord" : "";
+    return member.ends_with("view") ? "ViewRecord" : "";
 }
 
 std::map<std::string, std::pair<std::uint32_t, std::uint32_t>> flatten(

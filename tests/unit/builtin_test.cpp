@@ -240,7 +240,7 @@ TEST(Gallery, CallsForItsEffects) {
     EXPECT_TRUE(any([](const Material& m) { return m.metallic == 1.0F && m.roughness <= 0.25F; }));
     EXPECT_TRUE(any(
         [](const Material& m) { return m.metallic == 0.0F && m.specular > 0.0F && m.roughness <= 0.2F; }));
-    EXPECT_TRUE(any([](const Material& m) { return m.metallic_roughness_texture.present(); }));
+    EXPECT_TRUE(any([](const Material& m) { return m.slots[kSlotMetallicRoughness].present(); }));
     EXPECT_TRUE(any([](const Material& m) { return m.alpha_mode == AlphaMode::mask; }));
     EXPECT_GE(std::count_if(scene.materials.begin(), scene.materials.end(),
                             [](const Material& m) { return m.emission != vec3(0.0F); }),
@@ -257,10 +257,8 @@ TEST(Gallery, UsesEveryMaterialAndTexture) {
         material_used[scene.meshes[instance.mesh].material] = true;
     }
     for (const Material& m : scene.materials) {
-        for (const TextureSlot* slot :
-             {&m.base_color_texture, &m.metallic_roughness_texture, &m.normal_texture}) {
-            if (slot->present()) texture_used[slot->texture] = true;
-        }
+        for (const TextureSlot& slot : m.slots)
+            if (slot.present()) texture_used[slot.texture] = true;
     }
     for (std::size_t k = 0; k < material_used.size(); ++k)
         EXPECT_TRUE(material_used[k]) << scene.materials[k].name;
@@ -288,7 +286,7 @@ TEST(Gallery, MasksLeavesButNotAllOfThem) {
     const auto leaf = std::find_if(scene.materials.begin(), scene.materials.end(),
                                    [](const Material& m) { return m.alpha_mode == AlphaMode::mask; });
     ASSERT_NE(leaf, scene.materials.end());
-    const Texture& texture = scene.textures.at(leaf->base_color_texture.texture);
+    const Texture& texture = scene.textures.at(leaf->slots[kSlotBaseColor].texture);
     std::size_t solid = 0;
     for (std::size_t k = 3; k < texture.bytes.size(); k += 4) solid += texture.bytes[k] > 127 ? 1U : 0U;
     const std::size_t texels = std::size_t{texture.width} * texture.height;

@@ -62,7 +62,7 @@ TEST(DetectEffects, NothingIsCalledForWithoutEvidence) {
     EXPECT_EQ(effectsOf([](Scene& s) {
                   s.materials.resize(2);
                   s.materials[1].emission = vec3(1);
-                  s.materials[1].base_color_texture = textured(1);
+                  s.materials[1].slots[kSlotBaseColor] = textured(1);
                   s.materials[1].unlit = true;
               }),
               Names{})
@@ -76,27 +76,27 @@ TEST(DetectEffects, NothingIsCalledForWithoutEvidence) {
 
 TEST(DetectEffects, EachByItsEvidence) {
     const std::vector<std::pair<Names, Change>> cases{
-        {{"textures"}, [](Scene& s) { material(s).base_color_texture = textured(); }},
+        {{"textures"}, [](Scene& s) { material(s).slots[kSlotBaseColor] = textured(); }},
         {{},
          [](Scene& s) {
-             material(s).base_color_texture = textured();
+             material(s).slots[kSlotBaseColor] = textured();
              material(s).base_color = vec4(0, 0, 0, 1);
          }},
-        {{}, [](Scene& s) { material(s).emissive_texture = textured(); }},
-        {{}, [](Scene& s) { material(s).metallic_roughness_texture = textured(); }},
-        {{}, [](Scene& s) { material(s).specular_texture = textured(); }},
+        {{}, [](Scene& s) { material(s).slots[kSlotEmissive] = textured(); }},
+        {{}, [](Scene& s) { material(s).slots[kSlotMetallicRoughness] = textured(); }},
+        {{}, [](Scene& s) { material(s).slots[kSlotSpecular] = textured(); }},
         {{"textures", "glossy"},
          [](Scene& s) {
-             material(s).specular_texture = textured();
+             material(s).slots[kSlotSpecular] = textured();
              material(s).specular = 1.0F;
          }},
-        {{"textures", "normalMaps"}, [](Scene& s) { material(s).normal_texture = textured(); }},
+        {{"textures", "normalMaps"}, [](Scene& s) { material(s).slots[kSlotNormal] = textured(); }},
         {{},
          [](Scene& s) {
-             material(s).normal_texture = textured();
+             material(s).slots[kSlotNormal] = textured();
              material(s).normal_scale = 0.0F;
          }},
-        {{"textures", "extraUvSets"}, [](Scene& s) { material(s).base_color_texture = textured(1); }},
+        {{"textures", "extraUvSets"}, [](Scene& s) { material(s).slots[kSlotBaseColor] = textured(1); }},
         {{"vertexColors"},
          [](Scene& s) {
              s.meshes[0].colors = {vec4(1), vec4(1), vec4(1, 1, 0.5F, 1)};
@@ -158,7 +158,7 @@ TEST(DetectEffects, EachByItsEvidence) {
              material(s).unlit = true;
              material(s).metallic = 1.0F;
              material(s).emission = vec3(1);
-             material(s).normal_texture = textured();
+             material(s).slots[kSlotNormal] = textured();
          }},
     };
     for (std::size_t i = 0; i < cases.size(); ++i) {
@@ -187,7 +187,7 @@ TEST(DetectEffects, LightTrianglesAreSampledWhileTheyAreTheSmallerPart) {
 
 TEST(DetectEffects, AnEmissiveTextureCountsByItsMeanOverItsMaximum) {
     Scene scene = lampScene(0.75F);
-    scene.materials[1].emissive_texture = textured();
+    scene.materials[1].slots[kSlotEmissive] = textured();
     EXPECT_EQ(detectEffects(scene).names(), (Names{"textures", "emission"}))
         << "a white texture changes nothing";
     // One lit texel of four: 0.75 / 4 is less than half of the area.
@@ -200,7 +200,7 @@ TEST(DetectEffects, AnEmissiveTextureCountsByItsMeanOverItsMaximum) {
 
 TEST(DetectEffects, TheEvidenceNamesTheFirstObject) {
     Scene scene = lampScene(0.25F);
-    material(scene).base_color_texture = textured(2);
+    material(scene).slots[kSlotBaseColor] = textured(2);
     scene.lights.push_back({.name = "L"});
     const Effects effects = detectEffects(scene);
     EXPECT_EQ(effects.evidence[kEffectTextures], "material 'Matte' has a base colour texture");

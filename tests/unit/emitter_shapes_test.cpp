@@ -150,7 +150,7 @@ TEST(RoundEmitter, ShinesAlikeEverywhere) {
     EXPECT_TRUE(still([](Material& m) { m.double_sided = true; }));
     EXPECT_FALSE(still([](Material& m) { m.emission = vec3(0.0F); }));
     EXPECT_FALSE(still([](Material& m) { m.unlit = true; }));
-    EXPECT_FALSE(still([](Material& m) { m.emissive_texture.texture = 0; }));
+    EXPECT_FALSE(still([](Material& m) { m.slots[kSlotEmissive].texture = 0; }));
     EXPECT_FALSE(still([](Material& m) { m.alpha_mode = AlphaMode::mask; }));
     EXPECT_FALSE(still([](Material& m) { m.alpha_mode = AlphaMode::blend; }));
 }

@@ -40,12 +40,12 @@ protected:
 TEST_F(Iridescence, DefaultsAreTheSpecifications) {
     const Scene scene = load(Json::object());
     const Material& m = scene.materials.at(0);
-    EXPECT_EQ(m.iridescence, 0.0F);
-    EXPECT_EQ(m.iridescence_ior, 1.3F);
-    EXPECT_EQ(m.iridescence_thickness_minimum, 100.0F);
-    EXPECT_EQ(m.iridescence_thickness_maximum, 400.0F);
-    EXPECT_FALSE(m.iridescence_texture.present());
-    EXPECT_FALSE(m.iridescence_thickness_texture.present());
+    EXPECT_EQ(m.iridescence.factor, 0.0F);
+    EXPECT_EQ(m.iridescence.ior, 1.3F);
+    EXPECT_EQ(m.iridescence.thickness_minimum, 100.0F);
+    EXPECT_EQ(m.iridescence.thickness_maximum, 400.0F);
+    EXPECT_FALSE(m.slots[kSlotIridescence].present());
+    EXPECT_FALSE(m.slots[kSlotIridescenceThickness].present());
     EXPECT_TRUE(scene.notes.empty() || scene.notes[0].text.find("iridescence") == std::string::npos);
 }
 
@@ -57,13 +57,13 @@ TEST_F(Iridescence, EveryValueArrives) {
                               {"iridescenceTexture", {{"index", 1}}},
                               {"iridescenceThicknessTexture", {{"index", 0}}}});
     const Material& m = scene.materials.at(0);
-    EXPECT_EQ(m.iridescence, 0.75F);
-    EXPECT_EQ(m.iridescence_ior, 1.8F);
-    EXPECT_EQ(m.iridescence_thickness_minimum, 250.0F);
-    EXPECT_EQ(m.iridescence_thickness_maximum, 550.0F);
-    EXPECT_TRUE(m.iridescence_texture.present());
-    EXPECT_TRUE(m.iridescence_thickness_texture.present());
-    EXPECT_NE(m.iridescence_texture.texture, m.iridescence_thickness_texture.texture);
+    EXPECT_EQ(m.iridescence.factor, 0.75F);
+    EXPECT_EQ(m.iridescence.ior, 1.8F);
+    EXPECT_EQ(m.iridescence.thickness_minimum, 250.0F);
+    EXPECT_EQ(m.iridescence.thickness_maximum, 550.0F);
+    EXPECT_TRUE(m.slots[kSlotIridescence].present());
+    EXPECT_TRUE(m.slots[kSlotIridescenceThickness].present());
+    EXPECT_NE(m.slots[kSlotIridescence].texture, m.slots[kSlotIridescenceThickness].texture);
     const Effects effects = detectEffects(scene);
     EXPECT_EQ(effects.evidence[kEffectIridescence], "material 'X' is iridescent");
     EXPECT_EQ(effects.evidence[kEffectTextures], "material 'X' has a iridescence texture");
@@ -73,9 +73,9 @@ TEST_F(Iridescence, ValuesOutsideOfTheirRangeAreClampedAndNoted) {
     const Scene scene =
         load({{"iridescenceFactor", 2}, {"iridescenceIor", 0.5}, {"iridescenceThicknessMaximum", -1}});
     const Material& m = scene.materials.at(0);
-    EXPECT_EQ(m.iridescence, 1.0F);
-    EXPECT_EQ(m.iridescence_ior, 1.0F);
-    EXPECT_EQ(m.iridescence_thickness_maximum, 0.0F);
+    EXPECT_EQ(m.iridescence.factor, 1.0F);
+    EXPECT_EQ(m.iridescence.ior, 1.0F);
+    EXPECT_EQ(m.iridescence.thickness_maximum, 0.0F);
     std::size_t noted = 0;
     for (const SceneNote& note : scene.notes)
         noted += note.text.find("iridescence") != std::string::npos ? 1U : 0U;

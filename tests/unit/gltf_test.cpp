@@ -318,13 +318,13 @@ TEST_F(Gltf, MaterialsWithEveryFactorAndExtension) {
     EXPECT_EQ(m.ior, 1.75F);
     EXPECT_EQ(m.specular, 0.5F);
     EXPECT_EQ(m.specular_color, vec3(1, 2, 0));
-    EXPECT_TRUE(m.specular_texture.present() && m.specular_color_texture.present() &&
-                m.emissive_texture.present());
-    EXPECT_EQ(m.base_color_texture.wrap_u, Wrap::clamp);
-    EXPECT_EQ(m.base_color_texture.wrap_v, Wrap::mirror);
-    EXPECT_FALSE(m.base_color_texture.linear);
-    EXPECT_EQ(m.normal_texture.wrap_u, Wrap::repeat);
-    EXPECT_TRUE(m.normal_texture.linear);
+    EXPECT_TRUE(m.slots[kSlotSpecular].present() && m.slots[kSlotSpecularColor].present() &&
+                m.slots[kSlotEmissive].present());
+    EXPECT_EQ(m.slots[kSlotBaseColor].wrap_u, Wrap::clamp);
+    EXPECT_EQ(m.slots[kSlotBaseColor].wrap_v, Wrap::mirror);
+    EXPECT_FALSE(m.slots[kSlotBaseColor].linear);
+    EXPECT_EQ(m.slots[kSlotNormal].wrap_u, Wrap::repeat);
+    EXPECT_TRUE(m.slots[kSlotNormal].linear);
     // The picture is decoded once, and its bytes are what the file holds.
     ASSERT_EQ(scene.textures.size(), 1U);
     EXPECT_EQ(scene.textures[0].name, "P");
@@ -332,7 +332,7 @@ TEST_F(Gltf, MaterialsWithEveryFactorAndExtension) {
     EXPECT_EQ(scene.textures[0].height, 1U);
     EXPECT_EQ(scene.textures[0].bytes, (std::vector<std::uint8_t>{255, 0, 0, 255, 0, 255, 0, 255}));
     // Scale, then rotation, then offset.
-    const TextureSlot& slot = m.metallic_roughness_texture;
+    const TextureSlot& slot = m.slots[kSlotMetallicRoughness];
     EXPECT_EQ(slot.uv_set, 0U) << "the transform's texCoord wins";
     const double c = std::cos(0.39269908);
     const double s = std::sin(0.39269908);
@@ -360,7 +360,7 @@ TEST_F(Gltf, ThePublishedRotationTest) {
            {{"baseColorTexture",
              {{"index", 0},
               {"extensions", {{"KHR_texture_transform", {{"rotation", 0.39269908169872414}}}}}}}}}}});
-    const TextureSlot slot = loadGltf(file.writeExternal(folder_)).materials.at(0).base_color_texture;
+    const TextureSlot slot = loadGltf(file.writeExternal(folder_)).materials.at(0).slots[kSlotBaseColor];
     const vec3 where(0.5F - 0.0790482244F, 0.5F + 0.5162674858F, 1.0F);
     // The published positions are rounded sines and cosines in float.
     EXPECT_NEAR(glm::dot(slot.u_from_uv, where), 0.5F + 0.2778174593F,

@@ -107,7 +107,7 @@ TEST(ValidateScene, NamesTheObjectThatIsWrong) {
         {"mesh 0 'square'", [](Scene& s) { s.meshes[0].material = 1; }},
         {"instance 0 'square'", [](Scene& s) { s.instances[0].mesh = 1; }},
         {"instance 0 'square'", [](Scene& s) { s.instances[0].world_from_object[3].x = kInfinity; }},
-        {"material 0", [](Scene& s) { s.materials[0].base_color_texture.texture = 0; }},
+        {"material 0", [](Scene& s) { s.materials[0].slots[kSlotBaseColor].texture = 0; }},
         {"material 0", [](Scene& s) { s.materials[0].roughness = 1.5F; }},
         {"material 0", [](Scene& s) { s.materials[0].emission.y = std::nanf(""); }},
         {"texture 0 't'",

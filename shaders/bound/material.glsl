@@ -1,0 +1,88 @@
+// What a material is at a point: the only file that reads its texture slots and blocks.
+#ifndef LICHT_BOUND_MATERIAL_GLSL
+#define LICHT_BOUND_MATERIAL_GLSL
+
+#include "bound/texture.glsl"
+#include "pure/bsdf.glsl"
+#include "shared/constants.h"
+#include "shared/material.h"
+#include "shared/slots.h"
+
+layout(constant_id = kConstantTextureSlotKinds) const uint kTextureSlotKinds = 0xffffffffu;  // bits 1 << kSlot...
+
+bool hasTexture(MaterialRecord m, uint kind) { return kTextures && (kTextureSlotKinds & (1u << kind)) != 0u && hasSlot(m, kind); }
+
+// Filtered value of a slot of that kind (kSlot...); white where it is empty.
+vec4 sampleSlot(MaterialRecord m, uint kind, uvec3 v, vec3 weights) {
+    return hasTexture(m, kind) ? sampleTexture(slotAt(m, kind), v, weights) : vec4(1.0);
+}
+
+IridescenceRecord iridescenceOf(MaterialRecord m) {
+    vec4 a = blockAt(m, kBlockIridescence);
+    return IridescenceRecord(a.x, a.y, a.z, a.w);
+}
+
+vec4 baseColorAt(MaterialRecord m, uvec3 v, vec3 weights) {
+    vec4 c = m.base_color * sampleSlot(m, kSlotBaseColor, v, weights);
+    return kVertexColors ? c * vertexColorAt(v, weights) : c;
+}
+
+// Coverage: a masked or blended surface is there or not, for this ray, as one number decides.
+bool covers(uint instance, uint primitive, float b1, float b2, float u) {
+    MaterialRecord m = materialAt(instanceAt(instance).material);
+    if ((m.flags & (kMaterialAlphaMask | kMaterialAlphaBlend)) == 0u) return true;
+    uvec3 v = triangleVertices(instance, primitive);
+    float alpha = baseColorAt(m, v, vec3(1.0 - b1 - b2, b1, b2)).a;
+    return (m.flags & kMaterialAlphaMask) != 0u ? alpha >= m.alpha_cutoff : u < alpha;
+}
+
+// glTF's normal map: tangent space of the interpolated normal and the vertices' tangents.
+vec3 mappedNormal(MaterialRecord m, Placement at, uvec3 v, vec3 weights, vec3 n) {
+    vec4 t = weights.x * worldTangent(at, tangents[v.x]) + weights.y * worldTangent(at, tangents[v.y]) + weights.z * worldTangent(at, tangents[v.z]);
+    vec3 tangent = t.xyz - dot(t.xyz, n) * n;
+    float length2 = dot(tangent, tangent);
+    if (!(length2 > 0.0)) return n;
+    tangent *= inversesqrt(length2);
+    vec3 bitangent = (t.w < 0.0 ? -1.0 : 1.0) * cross(n, tangent);
+    vec3 k = sampleSlot(m, kSlotNormal, v, weights).xyz * 2.0 - 1.0;
+    vec3 mapped = k.x * m.normal_scale * tangent + k.y * m.normal_scale * bitangent + k.z * n;
+    float mapped2 = dot(mapped, mapped);
+    return mapped2 > 0.0 ? mapped * inversesqrt(mapped2) : n;
+}
+
+// Emitted towards wo, cd/m^2. Single-sided surfaces emit from their front.
+vec3 emissionOf(MaterialRecord m, uvec3 v, vec3 weights, bool front) {
+    if (!kEmission || !(front || (m.flags & kMaterialDoubleSided) != 0u)) return vec3(0.0);
+    return m.emission * sampleSlot(m, kSlotEmissive, v, weights).rgb;
+}
+
+Bsdf bsdfOf(MaterialRecord m, uvec3 v, vec3 weights, vec3 base) {
+    if (!kGlossy) return lambertBsdf(base);
+    float metallic = m.metallic;
+    float roughness = m.roughness;
+    float specular = m.specular;
+    vec3 specular_color = m.specular_color;
+    if (kTextures) {
+        vec4 mr = sampleSlot(m, kSlotMetallicRoughness, v, weights);
+        metallic *= mr.b;
+        roughness *= mr.g;
+        specular *= sampleSlot(m, kSlotSpecular, v, weights).a;
+        specular_color *= sampleSlot(m, kSlotSpecularColor, v, weights).rgb;
+    }
+    vec3 dielectric_f0 = min(m.dielectric_f0 * specular_color, vec3(1.0)) * specular;
+    Bsdf b = plainBsdf(base * (1.0 - metallic), max(roughness * roughness, kMinAlpha), mix(dielectric_f0, base, metallic),
+                       mix(specular, 1.0, metallic), largest(dielectric_f0), specular);
+    if (kIridescence && hasBlock(m, kBlockIridescence)) {
+        IridescenceRecord iridescence = iridescenceOf(m);
+        float thickness = iridescence.thickness_maximum;
+        if (hasTexture(m, kSlotIridescenceThickness))
+            thickness = mix(iridescence.thickness_minimum, thickness, sampleSlot(m, kSlotIridescenceThickness, v, weights).g);
+        b.film = thinFilm(iridescence.factor * sampleSlot(m, kSlotIridescence, v, weights).r, iridescence.ior, thickness);
+        b.film_dielectric_f0 = dielectric_f0;
+        b.film_metal_f0 = base;
+        b.metallic = metallic;
+    }
+    return b;
+}
+
+#endif
