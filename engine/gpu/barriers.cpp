@@ -1,5 +1,7 @@
-// From declared uses to barriers.
+// From uses to barriers.
 #include <fmt/format.h>
+
+#include <algorithm>
 
 #include "licht/core/error.h"
 #include "licht/gpu/commands.h"
@@ -105,80 +107,81 @@ Scopes advance(ResourceState& state, const AccessInfo& use, bool new_layout) {
 
 /// Each resource once, with the sum of what the pass does to it.
 struct MergedUse {
-    const Buffer* buffer = nullptr;
-    const Image* image = nullptr;
+    Tracked* resource = nullptr;
     AccessInfo access{};
 };
 
-std::vector<MergedUse> merge(std::span<const Use> uses) {
+std::vector<MergedUse> merge(std::span<const Use> bound, std::span<const Use> stated) {
     std::vector<MergedUse> merged;
-    for (const Use& use : uses) {
-        const auto* const* buffer = std::get_if<const Buffer*>(&use.resource);
-        const auto* const* image = std::get_if<const Image*>(&use.resource);
-        MergedUse next{buffer != nullptr ? *buffer : nullptr, image != nullptr ? *image : nullptr,
-                       accessInfo(use.access, image != nullptr)};
-        bool found = false;
-        for (MergedUse& known : merged) {
-            if (known.buffer != next.buffer || known.image != next.image) {
-                continue;
-            }
-            if (known.image != nullptr && known.access.layout != next.access.layout) {
-                throw DeviceError(
-                    fmt::format("a pass uses the image '{}' in two layouts at once", known.image->name()));
-            }
-            known.access.stages |= next.access.stages;
-            known.access.reads |= next.access.reads;
-            known.access.writes |= next.access.writes;
-            found = true;
+    merged.reserve(bound.size() + stated.size());
+    const auto add = [&merged](const Use& use) {
+        const AccessInfo access = accessInfo(use.access, use.resource->image != VK_NULL_HANDLE);
+        const auto known = std::find_if(merged.begin(), merged.end(), [&](const MergedUse& other) {
+            return other.resource == use.resource;
+        });
+        if (known == merged.end()) {
+            merged.push_back({use.resource, access});
+            return;
         }
-        if (!found) {
-            merged.push_back(next);
+        if (use.resource->image != VK_NULL_HANDLE && known->access.layout != access.layout) {
+            throw DeviceError(
+                fmt::format("a pass uses the image '{}' in two layouts at once", use.resource->name));
         }
-    }
+        known->access.stages |= access.stages;
+        known->access.reads |= access.reads;
+        known->access.writes |= access.writes;
+    };
+    std::for_each(bound.begin(), bound.end(), add);
+    std::for_each(stated.begin(), stated.end(), add);
     return merged;
+}
+
+VkBufferMemoryBarrier2 bufferBarrier(const Tracked& resource, const Scopes& scopes) {
+    VkBufferMemoryBarrier2 barrier{};
+    barrier.sType = VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER_2;
+    barrier.srcStageMask = scopes.from_stages;
+    barrier.srcAccessMask = scopes.from_access;
+    barrier.dstStageMask = scopes.to_stages;
+    barrier.dstAccessMask = scopes.to_access;
+    barrier.srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+    barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+    barrier.buffer = resource.buffer;
+    barrier.size = VK_WHOLE_SIZE;
+    return barrier;
+}
+
+VkImageMemoryBarrier2 imageBarrier(const Tracked& resource, const Scopes& scopes, VkImageLayout old_layout) {
+    VkImageMemoryBarrier2 barrier{};
+    barrier.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2;
+    barrier.srcStageMask = scopes.from_stages;
+    barrier.srcAccessMask = scopes.from_access;
+    barrier.dstStageMask = scopes.to_stages;
+    barrier.dstAccessMask = scopes.to_access;
+    barrier.oldLayout = old_layout;
+    barrier.newLayout = resource.state.layout;
+    barrier.srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+    barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+    barrier.image = resource.image;
+    barrier.subresourceRange = {resource.aspect, 0, 1, 0, 1};
+    return barrier;
 }
 
 }  // namespace
 
-void Commands::barrier(std::span<const Use> uses) {
+void Commands::barrier(std::span<const Use> bound, std::span<const Use> stated) {
     std::vector<VkBufferMemoryBarrier2> buffers;
     std::vector<VkImageMemoryBarrier2> images;
-    for (const MergedUse& use : merge(uses)) {
-        if (use.buffer != nullptr) {
-            const Scopes scopes = advance(use.buffer->state, use.access, false);
-            if (scopes.needed) {
-                VkBufferMemoryBarrier2 barrier{};
-                barrier.sType = VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER_2;
-                barrier.srcStageMask = scopes.from_stages;
-                barrier.srcAccessMask = scopes.from_access;
-                barrier.dstStageMask = scopes.to_stages;
-                barrier.dstAccessMask = scopes.to_access;
-                barrier.srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
-                barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
-                barrier.buffer = use.buffer->handle();
-                barrier.size = VK_WHOLE_SIZE;
-                buffers.push_back(barrier);
-            }
-            continue;
-        }
-        const VkImageLayout old_layout = use.image->state.layout;
-        const Scopes scopes = advance(use.image->state, use.access, old_layout != use.access.layout);
-        use.image->state.layout = use.access.layout;
-        if (scopes.needed) {
-            VkImageMemoryBarrier2 barrier{};
-            barrier.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2;
-            barrier.srcStageMask = scopes.from_stages;
-            barrier.srcAccessMask = scopes.from_access;
-            barrier.dstStageMask = scopes.to_stages;
-            barrier.dstAccessMask = scopes.to_access;
-            barrier.oldLayout = old_layout;
-            barrier.newLayout = use.access.layout;
-            barrier.srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
-            barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
-            barrier.image = use.image->handle();
-            barrier.subresourceRange = {use.image->aspect(), 0, 1, 0, 1};
-            images.push_back(barrier);
-        }
+    for (const MergedUse& use : merge(bound, stated)) {
+        Tracked& resource = *use.resource;
+        const bool image = resource.image != VK_NULL_HANDLE;
+        const VkImageLayout old_layout = resource.state.layout;
+        const Scopes scopes = advance(resource.state, use.access, image && old_layout != use.access.layout);
+        if (image) resource.state.layout = use.access.layout;
+        if (!scopes.needed) continue;
+        if (image)
+            images.push_back(imageBarrier(resource, scopes, old_layout));
+        else
+            buffers.push_back(bufferBarrier(resource, scopes));
     }
     if (buffers.empty() && images.empty()) {
         return;
@@ -198,8 +201,8 @@ void Commands::makeVisibleToHost(std::span<const Buffer* const> buffers) {
     barrier.dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT;
     barrier.dstAccessMask = VK_ACCESS_2_HOST_READ_BIT;
     for (const Buffer* buffer : buffers) {
-        barrier.srcStageMask |= buffer->state.write_stages;
-        barrier.srcAccessMask |= buffer->state.write_access;
+        barrier.srcStageMask |= buffer->tracked().state.write_stages;
+        barrier.srcAccessMask |= buffer->tracked().state.write_access;
     }
     if (barrier.srcStageMask == VK_PIPELINE_STAGE_2_NONE) {
         return;

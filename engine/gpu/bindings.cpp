@@ -106,6 +106,35 @@ private:
     std::deque<VkDescriptorImageInfo> images_;
 };
 
+/// How a pass that runs the program touches what is bound there.
+Access accessOf(const ReflectedBinding& binding, const Writes& writes) {
+    if ((binding.stages & VK_SHADER_STAGE_COMPUTE_BIT) == 0) {
+        if (binding.written || binding.type == VK_DESCRIPTOR_TYPE_STORAGE_IMAGE) {
+            writes.fail(binding,
+                        "can be written by vertex or fragment shaders, which the engine does not order");
+        }
+        return Access::raster_read;
+    }
+    if (binding.type == VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE ||
+        binding.type == VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER) {
+        return Access::compute_sample;
+    }
+    if (!binding.written) {
+        return Access::compute_read;
+    }
+    return binding.read ? Access::compute_read_write : Access::compute_write;
+}
+
+Tracked& trackedOf(const Resource& resource) {
+    struct Visitor {
+        Tracked* operator()(const Buffer* buffer) const { return &buffer->tracked(); }
+        Tracked* operator()(const TexelView* view) const { return &view->tracked(); }
+        Tracked* operator()(const Image* image) const { return &image->tracked(); }
+        Tracked* operator()(const SampledImage& sampled) const { return &sampled.image->tracked(); }
+    };
+    return *std::visit(Visitor{}, resource);
+}
+
 }  // namespace
 
 // Delegates, so that the destructor cleans up when a binding is missing.
@@ -154,6 +183,9 @@ Bindings::Bindings(Device& device, const Program& program, std::span<const Bound
         for (std::uint32_t element = 0; element < binding.count; ++element) {
             writes.add(binding, element, *found[std::min<std::size_t>(element, found.size() - 1)]);
         }
+        for (const Resource* resource : found) {
+            uses_.emplace_back(trackedOf(*resource), accessOf(binding, writes));
+        }
     }
     writes.update();
 }
@@ -161,12 +193,14 @@ Bindings::Bindings(Device& device, const Program& program, std::span<const Bound
 Bindings::Bindings(Bindings&& other) noexcept
     : device_(other.device_),
       pool_(std::exchange(other.pool_, VK_NULL_HANDLE)),
-      set_(std::exchange(other.set_, VK_NULL_HANDLE)) {}
+      set_(std::exchange(other.set_, VK_NULL_HANDLE)),
+      uses_(std::move(other.uses_)) {}
 
 Bindings& Bindings::operator=(Bindings&& other) noexcept {
     std::swap(device_, other.device_);
     std::swap(pool_, other.pool_);
     std::swap(set_, other.set_);
+    std::swap(uses_, other.uses_);
     return *this;
 }
 

@@ -104,16 +104,16 @@ void Commands::begin() {
     }
 }
 
-void Commands::pass(std::string_view name, std::span<const Use> uses,
-                    const std::function<void(const Pass&)>& record) {
+void Commands::recordPass(std::string_view name, std::span<const Use> bound, std::span<const Use> stated,
+                          const std::function<void(VkCommandBuffer)>& record) {
     if (timed_.size() == kMaxPasses) {
         throw DeviceError(fmt::format("more than {} passes in one recording, at '{}'", kMaxPasses, name));
     }
     timed_.emplace_back(name);
     const Bracket bracket(device_, command_buffer_, queries_, static_cast<std::uint32_t>(timed_.size() - 1),
                           timed_.back());
-    barrier(uses);
-    record(Pass(*this));
+    barrier(bound, stated);
+    record(command_buffer_);
 }
 
 void Commands::submit(VkSemaphore wait, VkSemaphore signal) {

@@ -1,6 +1,7 @@
 #pragma once
-// Recording and submitting. A pass states what it reads and writes; barriers, debug labels and timers follow
-// from that.
+// Recording and submitting. What a program reads and writes follows from its shaders, attachments and the
+// arguments of indirect dispatches from the call; only transfers state it. Barriers, debug labels and timers
+// follow from that.
 #include <functional>
 #include <initializer_list>
 #include <map>
@@ -13,28 +14,16 @@
 
 namespace licht::gpu {
 
-/// How a pass touches a resource. One table (commands.cpp) says which stage, access and image layout each
-/// means.
-enum class Access {
-    compute_read,   ///< storage or uniform buffer, texel buffer; storage image read
-    compute_write,  ///< storage, written without being read
-    compute_read_write,
-    compute_sample,  ///< sampled image
-    indirect_read,   ///< VkDispatchIndirectCommand
-    raster_read,     ///< buffers in vertex and fragment shaders
-    color_target,    ///< cleared or overwritten
-    depth_target,
-    transfer_read,
-    transfer_write,
-    present,
+/// A program and what the names in its shaders are bound to.
+struct BoundProgram {
+    const Program& program;
+    const Bindings& bindings;
 };
 
-struct Use {
-    std::variant<const Buffer*, const Image*> resource;
-    Access access;
+struct Threads {
+    std::uint32_t x = 1;
+    std::uint32_t y = 1;
 };
-
-class Commands;
 
 /// A colour image that is cleared to this value before the first draw.
 struct ColorTarget {
@@ -42,44 +31,10 @@ struct ColorTarget {
     VkClearColorValue clear{};
 };
 
-/// What a pass may record; valid inside its function alone.
-class Pass {
-public:
-    explicit Pass(Commands& commands) : commands_(commands) {}
-    [[nodiscard]] VkCommandBuffer commandBuffer() const;
-    /// Binds and dispatches enough workgroups for that many threads. The push constants' size is asserted
-    /// against the shader.
-    template <typename Push>
-    void dispatch(const Program& program, const Bindings& bindings, const Push& push, std::uint32_t threads_x,
-                  std::uint32_t threads_y = 1) const {
-        dispatchBytes(program, bindings, std::as_bytes(std::span(&push, 1)), threads_x, threads_y);
-    }
-    /// Dispatches as many workgroups as the VkDispatchIndirectCommand at `offset` says; the pass uses the
-    /// buffer as indirect_read.
-    template <typename Push>
-    void dispatchIndirect(const Program& program, const Bindings& bindings, const Push& constants,
-                          const Buffer& buffer, VkDeviceSize offset) const {
-        bind(program, bindings);
-        push(program, std::as_bytes(std::span(&constants, 1)));
-        vkCmdDispatchIndirect(commandBuffer(), buffer.handle(), offset);
-    }
-    void dispatch(const Program& program, const Bindings& bindings, std::uint32_t threads_x,
-                  std::uint32_t threads_y = 1) const {
-        dispatchBytes(program, bindings, {}, threads_x, threads_y);
-    }
-    /// Binds a raster program for draws that follow.
-    void bind(const Program& program, const Bindings& bindings) const;
-    void push(const Program& program, std::span<const std::byte> bytes) const;
-    /// Draws into images that the pass uses as color_target and depth_target. All are cleared first, depth
-    /// (may be null) to 0, the farthest. Viewport and scissor are the whole picture and nothing is culled
-    /// until `draws` says otherwise.
-    void render(std::span<const ColorTarget> colors, const Image* depth,
-                const std::function<void()>& draws) const;
-
-private:
-    void dispatchBytes(const Program& program, const Bindings& bindings, std::span<const std::byte> push,
-                       std::uint32_t threads_x, std::uint32_t threads_y) const;
-    Commands& commands_;
+/// Images to draw into. All are cleared first, depth (may be null) to 0, the farthest.
+struct Targets {
+    std::span<const ColorTarget> colors;
+    const Image* depth = nullptr;
 };
 
 /// Seconds on the device per pass name, and how often it ran.
@@ -103,14 +58,44 @@ public:
 
     /// Starts recording; waits for the last submission of this object first.
     void begin();
-    /// Records one pass: a barrier for what `uses` states, a label and a timer called `name`, then `record`.
-    /// A resource may stand in `uses` several times when the accesses agree on the image layout. At most
-    /// kMaxPasses passes between begin() and submit(), else DeviceError.
+    // Each of these records one pass: barriers, a label and a timer called `name`, then what is asked for. At
+    // most kMaxPasses between begin() and submit(), else DeviceError. The size of push constants is checked
+    // against the shader.
+
+    /// Enough workgroups for that many threads.
+    template <typename Push>
+    void dispatch(std::string_view name, const BoundProgram& what, const Push& push, Threads threads) {
+        dispatchBytes(name, what, std::as_bytes(std::span(&push, 1)), threads);
+    }
+    void dispatch(std::string_view name, const BoundProgram& what, Threads threads) {
+        dispatchBytes(name, what, {}, threads);
+    }
+    /// As many workgroups as the VkDispatchIndirectCommand at `offset` of `arguments` says.
+    template <typename Push>
+    void dispatchIndirect(std::string_view name, const BoundProgram& what, const Push& push,
+                          const Buffer& arguments, VkDeviceSize offset) {
+        dispatchIndirectBytes(name, what, std::as_bytes(std::span(&push, 1)), arguments, offset);
+    }
+    /// Draws with the program bound. Viewport and scissor are the whole picture and nothing is culled until
+    /// `draws` says otherwise.
+    template <typename Push>
+    void draw(std::string_view name, const BoundProgram& what, const Push& push, const Targets& targets,
+              const std::function<void(VkCommandBuffer)>& draws) {
+        drawBytes(name, what, std::as_bytes(std::span(&push, 1)), targets, draws);
+    }
+    void draw(std::string_view name, const BoundProgram& what, const Targets& targets,
+              const std::function<void(VkCommandBuffer)>& draws) {
+        drawBytes(name, what, {}, targets, draws);
+    }
+    /// Anything else, such as transfers, with its uses stated. A resource may stand there several times when
+    /// the accesses agree on the image layout.
     void pass(std::string_view name, std::span<const Use> uses,
-              const std::function<void(const Pass&)>& record);
+              const std::function<void(VkCommandBuffer)>& record) {
+        recordPass(name, {}, uses, record);
+    }
     void pass(std::string_view name, std::initializer_list<Use> uses,
-              const std::function<void(const Pass&)>& record) {
-        pass(name, std::span(uses.begin(), uses.size()), record);
+              const std::function<void(VkCommandBuffer)>& record) {
+        recordPass(name, {}, std::span(uses.begin(), uses.size()), record);
     }
     /// Makes device writes to host_read buffers visible to the host after wait().
     void makeVisibleToHost(std::span<const Buffer* const> buffers);
@@ -125,13 +110,21 @@ public:
 
     /// Sums since construction of all finished submissions.
     [[nodiscard]] const std::map<std::string, PassTime>& times() const { return times_; }
-    [[nodiscard]] VkCommandBuffer handle() const { return command_buffer_; }
     [[nodiscard]] Device& device() const { return device_; }
 
 private:
     void create();
     void destroy() noexcept;
-    void barrier(std::span<const Use> uses);
+    void recordPass(std::string_view name, std::span<const Use> bound, std::span<const Use> stated,
+                    const std::function<void(VkCommandBuffer)>& record);
+    void dispatchBytes(std::string_view name, const BoundProgram& what, std::span<const std::byte> push,
+                       Threads threads);
+    void dispatchIndirectBytes(std::string_view name, const BoundProgram& what,
+                               std::span<const std::byte> push, const Buffer& arguments, VkDeviceSize offset);
+    void drawBytes(std::string_view name, const BoundProgram& what, std::span<const std::byte> push,
+                   const Targets& targets, const std::function<void(VkCommandBuffer)>& draws);
+    void bind(const BoundProgram& what, std::span<const std::byte> push) const;
+    void barrier(std::span<const Use> bound, std::span<const Use> stated);
     void collectTimes();
     Device& device_;
     VkCommandPool pool_ = VK_NULL_HANDLE;

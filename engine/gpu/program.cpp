@@ -96,6 +96,8 @@ void Program::createLayout(const std::vector<Reflection>& stages) {
             } else if (known->name == found.name && known->type == found.type &&
                        known->count == found.count) {
                 known->stages |= found.stages;
+                known->read = known->read || found.read;
+                known->written = known->written || found.written;
             } else {
                 throw DeviceError(fmt::format("'{}': binding {} is both '{}' and '{}'", name_, found.binding,
                                               known->name, found.name));

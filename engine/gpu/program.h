@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "licht/gpu/resource.h"
+#include "licht/gpu/use.h"
 
 namespace licht::gpu {
 
@@ -20,6 +20,8 @@ struct ReflectedBinding {
     std::uint32_t count = 1;
     VkDescriptorType type = VK_DESCRIPTOR_TYPE_MAX_ENUM;
     VkShaderStageFlags stages = 0;
+    bool read = true;      ///< as the GLSL has it: not `writeonly`
+    bool written = false;  ///< a storage buffer or image that is not `readonly`
 };
 
 /// What a SPIR-V module says of itself (SPIRV-Cross reads it).
@@ -104,8 +106,9 @@ struct BoundResource {
 };
 
 /// A descriptor set for one program, resources matched by the names in its GLSL. Throws DeviceError naming
-/// program and binding when one is missing; names that the program does not declare are ignored, so that one
-/// list of resources serves several programs.
+/// program and binding when one is missing, or when vertex or fragment shaders could write it; names that the
+/// program does not declare are ignored, so that one list of resources serves several programs. The resources
+/// must outlive it, and may move.
 class Bindings {
 public:
     Bindings() = default;
@@ -114,11 +117,14 @@ public:
     Bindings& operator=(Bindings&& other) noexcept;
     ~Bindings();
     [[nodiscard]] VkDescriptorSet set() const { return set_; }
+    /// What a pass that runs the program does to each resource, as the shaders say.
+    [[nodiscard]] std::span<const Use> uses() const { return uses_; }
 
 private:
     Device* device_ = nullptr;
     VkDescriptorPool pool_ = VK_NULL_HANDLE;
     VkDescriptorSet set_ = VK_NULL_HANDLE;
+    std::vector<Use> uses_;
 };
 
 }  // namespace licht::gpu

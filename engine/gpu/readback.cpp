@@ -12,7 +12,7 @@ std::vector<std::byte> read(Device& device, VkDeviceSize bytes, const Use& sourc
     Commands commands(device);
     commands.begin();
     commands.pass("readback", {source, {&staging, Access::transfer_write}},
-                  [&](const Pass& pass) { copy(pass.commandBuffer(), staging.handle()); });
+                  [&](VkCommandBuffer recording) { copy(recording, staging.handle()); });
     commands.makeVisibleToHost(std::array{&staging});
     commands.submit();
     commands.wait();

@@ -118,6 +118,29 @@ std::string nameOf(const Module& module, const spvc_reflected_resource& resource
     return variable.empty() ? resource.name : variable;
 }
 
+/// Of a storage buffer, whose members may carry them, or of a storage image.
+class Decorations {
+public:
+    Decorations(const Module& module, const spvc_reflected_resource& resource, spvc_resource_type kind)
+        : module_(module), variable_(resource.id) {
+        if (kind != SPVC_RESOURCE_TYPE_STORAGE_BUFFER) return;
+        const SpvDecoration* first = nullptr;
+        std::size_t count = 0;
+        module.require(
+            spvc_compiler_get_buffer_block_decorations(module.compiler(), resource.id, &first, &count));
+        of_all_members_ = {first, count};
+    }
+    [[nodiscard]] bool has(SpvDecoration wanted) const {
+        return std::find(of_all_members_.begin(), of_all_members_.end(), wanted) != of_all_members_.end() ||
+               spvc_compiler_has_decoration(module_.compiler(), variable_, wanted) == SPVC_TRUE;
+    }
+
+private:
+    const Module& module_;
+    spvc_variable_id variable_;
+    std::span<const SpvDecoration> of_all_members_;
+};
+
 ReflectedBinding describe(const Module& module, const spvc_reflected_resource& resource,
                           const ResourceKind& kind) {
     const spvc_type type = module.type(resource.type_id);
@@ -133,6 +156,11 @@ ReflectedBinding describe(const Module& module, const spvc_reflected_resource& r
     const bool texels = kind.texel_buffer_type != VK_DESCRIPTOR_TYPE_MAX_ENUM &&
                         spvc_type_get_image_dimension(module.type(resource.base_type_id)) == SpvDimBuffer;
     binding.type = texels ? kind.texel_buffer_type : kind.type;
+    if (kind.kind == SPVC_RESOURCE_TYPE_STORAGE_BUFFER || kind.kind == SPVC_RESOURCE_TYPE_STORAGE_IMAGE) {
+        const Decorations decorations(module, resource, kind.kind);
+        binding.read = !decorations.has(SpvDecorationNonReadable);
+        binding.written = !decorations.has(SpvDecorationNonWritable);
+    }
     return binding;
 }
 

@@ -71,7 +71,8 @@ Buffer::Buffer(Device& device, std::string name, VkDeviceSize size, VkBufferUsag
     : Buffer() {
     constexpr VkDeviceSize kSmallest = 16;  // one texel of the widest format
     device_ = &device;
-    name_ = std::move(name);
+    tracked_ = std::make_unique<Tracked>();
+    tracked_->name = std::move(name);
     size_ = size == 0 ? kSmallest : size;
 
     VkBufferCreateInfo info{};
@@ -79,21 +80,21 @@ Buffer::Buffer(Device& device, std::string name, VkDeviceSize size, VkBufferUsag
     info.size = size_;
     info.usage = usage;
     info.sharingMode = VK_SHARING_MODE_EXCLUSIVE;
-    check(vkCreateBuffer(device.handle(), &info, nullptr, &buffer_),
-          fmt::format("creating the buffer '{}' of {} bytes", name_, size_));
-    device.setName(VK_OBJECT_TYPE_BUFFER, std::bit_cast<std::uint64_t>(buffer_), name_);
+    check(vkCreateBuffer(device.handle(), &info, nullptr, &tracked_->buffer),
+          fmt::format("creating the buffer '{}' of {} bytes", tracked_->name, size_));
+    device.setName(VK_OBJECT_TYPE_BUFFER, std::bit_cast<std::uint64_t>(tracked_->buffer), tracked_->name);
 
     VkMemoryRequirements requirements{};
-    vkGetBufferMemoryRequirements(device.handle(), buffer_, &requirements);
+    vkGetBufferMemoryRequirements(device.handle(), tracked_->buffer, &requirements);
     const MemoryFlags flags = memoryFlags(memory);
-    memory_ = device.allocate(requirements, flags.wanted, flags.preferred, name_);
+    memory_ = device.allocate(requirements, flags.wanted, flags.preferred, tracked_->name);
     allocated_ = requirements.size;
-    check(vkBindBufferMemory(device.handle(), buffer_, memory_, 0),
-          fmt::format("binding the buffer '{}'", name_));
+    check(vkBindBufferMemory(device.handle(), tracked_->buffer, memory_, 0),
+          fmt::format("binding the buffer '{}'", tracked_->name));
     if (memory != Memory::device) {
         void* address = nullptr;
         check(vkMapMemory(device.handle(), memory_, 0, VK_WHOLE_SIZE, 0, &address),
-              fmt::format("mapping the buffer '{}'", name_));
+              fmt::format("mapping the buffer '{}'", tracked_->name));
         mapped_ = static_cast<std::byte*>(address);
     }
 }
@@ -106,9 +107,7 @@ Buffer& Buffer::operator=(Buffer&& other) noexcept {
     if (this != &other) {
         destroy();
         device_ = other.device_;
-        name_ = std::move(other.name_);
-        state = other.state;
-        buffer_ = std::exchange(other.buffer_, VK_NULL_HANDLE);
+        tracked_ = std::move(other.tracked_);
         memory_ = std::exchange(other.memory_, VK_NULL_HANDLE);
         size_ = std::exchange(other.size_, 0);
         allocated_ = std::exchange(other.allocated_, 0);
@@ -122,8 +121,8 @@ Buffer::~Buffer() {
 }
 
 void Buffer::destroy() noexcept {
-    if (buffer_ != VK_NULL_HANDLE) {
-        vkDestroyBuffer(device_->handle(), buffer_, nullptr);
+    if (tracked_ != nullptr) {
+        vkDestroyBuffer(device_->handle(), tracked_->buffer, nullptr);
         device_->release(memory_, allocated_);
     }
 }
@@ -141,9 +140,9 @@ Buffer uploadBuffer(Device& device, std::string name, std::span<const std::byte>
     Commands commands(device);
     commands.begin();
     commands.pass("upload", {{&staging, Access::transfer_read}, {&buffer, Access::transfer_write}},
-                  [&](const Pass& pass) {
+                  [&](VkCommandBuffer recording) {
                       const VkBufferCopy copy{0, 0, bytes.size()};
-                      vkCmdCopyBuffer(pass.commandBuffer(), staging.handle(), buffer.handle(), 1, &copy);
+                      vkCmdCopyBuffer(recording, staging.handle(), buffer.handle(), 1, &copy);
                   });
     commands.submit();
     commands.wait();
@@ -152,6 +151,7 @@ Buffer uploadBuffer(Device& device, std::string name, std::span<const std::byte>
 
 TexelView::TexelView(Device& device, const Buffer& buffer, VkFormat format) : TexelView() {
     device_ = &device;
+    tracked_ = &buffer.tracked();
     const VkDeviceSize texels = buffer.size() / texelBytes(format);
     if (texels > device.limits().maxTexelBufferElements) {
         throw DeviceError(fmt::format("the texel buffer '{}' has {} texels, the device allows {}",
@@ -168,10 +168,11 @@ TexelView::TexelView(Device& device, const Buffer& buffer, VkFormat format) : Te
 }
 
 TexelView::TexelView(TexelView&& other) noexcept
-    : device_(other.device_), view_(std::exchange(other.view_, VK_NULL_HANDLE)) {}
+    : device_(other.device_), tracked_(other.tracked_), view_(std::exchange(other.view_, VK_NULL_HANDLE)) {}
 
 TexelView& TexelView::operator=(TexelView&& other) noexcept {
     std::swap(device_, other.device_);
+    std::swap(tracked_, other.tracked_);
     std::swap(view_, other.view_);
     return *this;
 }
@@ -185,15 +186,16 @@ TexelView::~TexelView() {
 Image::Image(Device& device, std::string name, VkExtent2D extent, VkFormat format, VkImageUsageFlags usage)
     : Image() {
     device_ = &device;
-    name_ = std::move(name);
+    tracked_ = std::make_unique<Tracked>();
+    tracked_->name = std::move(name);
+    tracked_->aspect = aspectOf(format);
     extent_ = extent;
     format_ = format;
-    aspect_ = aspectOf(format);
     const std::uint32_t longest = device.limits().maxImageDimension2D;
     if (extent.width == 0 || extent.height == 0 || extent.width > longest || extent.height > longest) {
         throw DeviceError(
             fmt::format("the image '{}' of {} x {} pixels does not fit the device, which allows 1 to {}",
-                        name_, extent.width, extent.height, longest));
+                        tracked_->name, extent.width, extent.height, longest));
     }
 
     VkImageCreateInfo info{};
@@ -208,17 +210,18 @@ Image::Image(Device& device, std::string name, VkExtent2D extent, VkFormat forma
     info.usage = usage;
     info.sharingMode = VK_SHARING_MODE_EXCLUSIVE;
     info.initialLayout = VK_IMAGE_LAYOUT_UNDEFINED;
-    check(vkCreateImage(device.handle(), &info, nullptr, &image_),
-          fmt::format("creating the image '{}' of {} x {} pixels", name_, extent.width, extent.height));
-    device.setName(VK_OBJECT_TYPE_IMAGE, std::bit_cast<std::uint64_t>(image_), name_);
+    check(vkCreateImage(device.handle(), &info, nullptr, &tracked_->image),
+          fmt::format("creating the image '{}' of {} x {} pixels", tracked_->name, extent.width,
+                      extent.height));
+    device.setName(VK_OBJECT_TYPE_IMAGE, std::bit_cast<std::uint64_t>(tracked_->image), tracked_->name);
 
     VkMemoryRequirements requirements{};
-    vkGetImageMemoryRequirements(device.handle(), image_, &requirements);
+    vkGetImageMemoryRequirements(device.handle(), tracked_->image, &requirements);
     const MemoryFlags flags = memoryFlags(Memory::device);
-    memory_ = device.allocate(requirements, flags.wanted, flags.preferred, name_);
+    memory_ = device.allocate(requirements, flags.wanted, flags.preferred, tracked_->name);
     allocated_ = requirements.size;
-    check(vkBindImageMemory(device.handle(), image_, memory_, 0),
-          fmt::format("binding the image '{}'", name_));
+    check(vkBindImageMemory(device.handle(), tracked_->image, memory_, 0),
+          fmt::format("binding the image '{}'", tracked_->name));
 
     // Transfer alone allows no view.
     constexpr VkImageUsageFlags kViewed = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT |
@@ -229,13 +232,13 @@ Image::Image(Device& device, std::string name, VkExtent2D extent, VkFormat forma
     }
     VkImageViewCreateInfo view{};
     view.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO;
-    view.image = image_;
+    view.image = tracked_->image;
     view.viewType = VK_IMAGE_VIEW_TYPE_2D;
     view.format = format;
-    view.subresourceRange = {aspect_, 0, 1, 0, 1};
+    view.subresourceRange = {tracked_->aspect, 0, 1, 0, 1};
     check(vkCreateImageView(device.handle(), &view, nullptr, &view_),
-          fmt::format("creating the view of '{}'", name_));
-    device.setName(VK_OBJECT_TYPE_IMAGE_VIEW, std::bit_cast<std::uint64_t>(view_), name_);
+          fmt::format("creating the view of '{}'", tracked_->name));
+    device.setName(VK_OBJECT_TYPE_IMAGE_VIEW, std::bit_cast<std::uint64_t>(view_), tracked_->name);
 }
 
 Image::Image(Image&& other) noexcept {
@@ -246,15 +249,12 @@ Image& Image::operator=(Image&& other) noexcept {
     if (this != &other) {
         destroy();
         device_ = other.device_;
-        name_ = std::move(other.name_);
-        state = other.state;
-        image_ = std::exchange(other.image_, VK_NULL_HANDLE);
+        tracked_ = std::move(other.tracked_);
         memory_ = std::exchange(other.memory_, VK_NULL_HANDLE);
         allocated_ = std::exchange(other.allocated_, 0);
         view_ = std::exchange(other.view_, VK_NULL_HANDLE);
         extent_ = other.extent_;
         format_ = other.format_;
-        aspect_ = other.aspect_;
     }
     return *this;
 }
@@ -264,9 +264,9 @@ Image::~Image() {
 }
 
 void Image::destroy() noexcept {
-    if (image_ != VK_NULL_HANDLE) {
+    if (tracked_ != nullptr) {
         vkDestroyImageView(device_->handle(), view_, nullptr);
-        vkDestroyImage(device_->handle(), image_, nullptr);
+        vkDestroyImage(device_->handle(), tracked_->image, nullptr);
         device_->release(memory_, allocated_);
     }
 }

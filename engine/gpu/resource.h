@@ -1,5 +1,6 @@
 #pragma once
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <string>
 
@@ -15,6 +16,16 @@ struct ResourceState {
     VkPipelineStageFlags2 seen_stages = VK_PIPELINE_STAGE_2_NONE;  ///< to which the last write is visible
     VkAccessFlags2 seen_access = VK_ACCESS_2_NONE;
     VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
+};
+
+/// What barriers follow a resource by. It stays where it is when its owner is moved, so that views and
+/// bindings may point at it.
+struct Tracked {
+    std::string name;
+    VkBuffer buffer = VK_NULL_HANDLE;  ///< either this
+    VkImage image = VK_NULL_HANDLE;    ///< or that
+    VkImageAspectFlags aspect = 0;     ///< of the image
+    ResourceState state;               ///< bookkeeping of Commands
 };
 
 /// Bytes of one texel; throws DeviceError for a format that the engine does not use.
@@ -35,19 +46,17 @@ public:
     Buffer& operator=(Buffer&& other) noexcept;
     ~Buffer();
 
-    [[nodiscard]] VkBuffer handle() const { return buffer_; }
+    [[nodiscard]] VkBuffer handle() const { return tracked_->buffer; }
     [[nodiscard]] VkDeviceSize size() const { return size_; }
-    [[nodiscard]] const std::string& name() const { return name_; }
+    [[nodiscard]] const std::string& name() const { return tracked_->name; }
     [[nodiscard]] std::byte* mapped() const { return mapped_; }  ///< null for Memory::device
-    [[nodiscard]] explicit operator bool() const { return buffer_ != VK_NULL_HANDLE; }
-
-    mutable ResourceState state;  ///< bookkeeping of Commands
+    [[nodiscard]] Tracked& tracked() const { return *tracked_; }
+    [[nodiscard]] explicit operator bool() const { return tracked_ != nullptr; }
 
 private:
     void destroy() noexcept;
     Device* device_ = nullptr;
-    std::string name_;
-    VkBuffer buffer_ = VK_NULL_HANDLE;
+    std::unique_ptr<Tracked> tracked_;
     VkDeviceMemory memory_ = VK_NULL_HANDLE;
     VkDeviceSize size_ = 0;
     VkDeviceSize allocated_ = 0;
@@ -64,7 +73,7 @@ Buffer uploadBuffer(Device& device, std::string name, std::span<const T> values,
     return uploadBuffer(device, std::move(name), std::as_bytes(values), usage);
 }
 
-/// A formatted view on a whole buffer, for uniform texel buffers.
+/// A formatted view on a whole buffer, for uniform texel buffers. The buffer must outlive it, and may move.
 class TexelView {
 public:
     TexelView() = default;
@@ -73,9 +82,11 @@ public:
     TexelView& operator=(TexelView&& other) noexcept;
     ~TexelView();
     [[nodiscard]] VkBufferView handle() const { return view_; }
+    [[nodiscard]] Tracked& tracked() const { return *tracked_; }  ///< the buffer's
 
 private:
     Device* device_ = nullptr;
+    Tracked* tracked_ = nullptr;
     VkBufferView view_ = VK_NULL_HANDLE;
 };
 
@@ -88,27 +99,24 @@ public:
     Image& operator=(Image&& other) noexcept;
     ~Image();
 
-    [[nodiscard]] VkImage handle() const { return image_; }
+    [[nodiscard]] VkImage handle() const { return tracked_->image; }
     [[nodiscard]] VkImageView view() const { return view_; }
     [[nodiscard]] VkExtent2D extent() const { return extent_; }
     [[nodiscard]] VkFormat format() const { return format_; }
-    [[nodiscard]] VkImageAspectFlags aspect() const { return aspect_; }
-    [[nodiscard]] const std::string& name() const { return name_; }
-    [[nodiscard]] explicit operator bool() const { return image_ != VK_NULL_HANDLE; }
-
-    mutable ResourceState state;  ///< bookkeeping of Commands
+    [[nodiscard]] VkImageAspectFlags aspect() const { return tracked_->aspect; }
+    [[nodiscard]] const std::string& name() const { return tracked_->name; }
+    [[nodiscard]] Tracked& tracked() const { return *tracked_; }
+    [[nodiscard]] explicit operator bool() const { return tracked_ != nullptr; }
 
 private:
     void destroy() noexcept;
     Device* device_ = nullptr;
-    std::string name_;
-    VkImage image_ = VK_NULL_HANDLE;
+    std::unique_ptr<Tracked> tracked_;
     VkDeviceMemory memory_ = VK_NULL_HANDLE;
     VkDeviceSize allocated_ = 0;
     VkImageView view_ = VK_NULL_HANDLE;
     VkExtent2D extent_{};
     VkFormat format_ = VK_FORMAT_UNDEFINED;
-    VkImageAspectFlags aspect_ = 0;
 };
 
 class Sampler {

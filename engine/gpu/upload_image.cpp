@@ -13,14 +13,14 @@ Image uploadImage(Device& device, std::string name, VkExtent2D extent, VkFormat 
     Commands commands(device);
     commands.begin();
     commands.pass("upload", {{&staging, Access::transfer_read}, {&image, Access::transfer_write}},
-                  [&](const Pass& pass) {
+                  [&](VkCommandBuffer recording) {
                       VkBufferImageCopy region{};
                       region.imageSubresource = {image.aspect(), 0, 0, 1};
                       region.imageExtent = {extent.width, extent.height, 1};
-                      vkCmdCopyBufferToImage(pass.commandBuffer(), staging.handle(), image.handle(),
+                      vkCmdCopyBufferToImage(recording, staging.handle(), image.handle(),
                                              VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
                   });
-    commands.pass("upload", {{&image, Access::compute_sample}}, [](const Pass&) {});
+    commands.pass("upload", {{&image, Access::compute_sample}}, [](VkCommandBuffer) {});
     commands.submit();
     commands.wait();
     return image;

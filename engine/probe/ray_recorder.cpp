@@ -7,21 +7,17 @@
 
 #include "licht/core/error.h"
 #include "licht/gpu/commands.h"
+#include "licht/render/gbuffer.h"
 #include "licht/render/history.h"
-#include "licht/render/passes.h"
 #include "licht/render/view.h"
 #include "licht/shared/choices.h"
 #include "licht/shared/constants.h"
 #include "licht/shared/effects.h"
 #include "licht/shared/frame.h"
-#include "licht/spirv/gbuffer_frag.h"
-#include "licht/spirv/gbuffer_vert.h"
 #include "licht/spirv/record_rays_comp.h"
 
 namespace licht {
 namespace {
-
-using gpu::Access;
 
 constexpr std::uint32_t kTile = 8;  // record_rays.comp's workgroup
 constexpr std::uint32_t kPixelsPerSubmission = 1U << 16U;
@@ -76,9 +72,7 @@ std::vector<RayList> recordRays(gpu::Device& device, const GpuScene& scene, cons
                         size.y, limit / sizeof(RayRecord)));
 
     const gpu::SpecConstants constants = constantsOf(scene, effects);
-    const gpu::Program gbuffer =
-        gpu::Program::raster(device, "gbuffer", gbuffer_vert, gbuffer_frag,
-                             {{VK_FORMAT_R32G32B32A32_UINT}, VK_FORMAT_D32_SFLOAT}, constants);
+    const gpu::Program gbuffer = gbufferProgram(device, constants);
     const gpu::Program record = gpu::Program::compute(device, "record_rays", record_rays_comp, constants);
     const History history(device, size, false);
     const gpu::Buffer frame_buffer(device, "frame", sizeof(FrameRecord), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
@@ -94,11 +88,7 @@ std::vector<RayList> recordRays(gpu::Device& device, const GpuScene& scene, cons
         lists.emplace_back(device, name, list_bytes,
                            VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
                            gpu::Memory::device);
-    std::vector<gpu::Use> uses{{&history.gbuffer, Access::compute_read}};
-    for (std::size_t i = 0; i < kRayLists; ++i) {
-        resources.push_back({kListNames[i], &lists[i]});
-        uses.push_back({&lists[i], Access::compute_write});
-    }
+    for (std::size_t i = 0; i < kRayLists; ++i) resources.push_back({kListNames[i], &lists[i]});
     const gpu::Bindings gbuffer_bindings(device, gbuffer, resources);
     const gpu::Bindings record_bindings(device, record, resources);
 
@@ -108,10 +98,8 @@ std::vector<RayList> recordRays(gpu::Device& device, const GpuScene& scene, cons
     for (push.first_row = 0; push.first_row < size.y; push.first_row += rows) {
         push.row_count = std::min(rows, size.y - push.first_row);
         commands.begin();
-        if (push.first_row == 0) recordGbuffer(commands, gbuffer, gbuffer_bindings, scene, history, push);
-        commands.pass("record_rays", uses, [&](const gpu::Pass& pass) {
-            pass.dispatch(record, record_bindings, push, size.x, push.row_count);
-        });
+        if (push.first_row == 0) recordGbuffer(commands, {gbuffer, gbuffer_bindings}, scene, history, push);
+        commands.dispatch("record_rays", {record, record_bindings}, push, {size.x, push.row_count});
         commands.submit();
         commands.wait();
     }

@@ -60,8 +60,7 @@ double RayTracer::traceRange(const RayRange& range) {
     const Clock::time_point start = Clock::now();
     commands_.begin();
     const uint threads = (range.count + rays_per_thread_ - 1) / rays_per_thread_;
-    commands_.pass("trace_rays", {{&rays_, gpu::Access::compute_read}, {&hits_, gpu::Access::compute_write}},
-                   [&](const gpu::Pass& pass) { pass.dispatch(program_, bindings_, threads); });
+    commands_.dispatch("trace_rays", {program_, bindings_}, {threads});
     commands_.submit();
     commands_.wait();
     return std::chrono::duration<double>(Clock::now() - start).count();
@@ -70,8 +69,8 @@ double RayTracer::traceRange(const RayRange& range) {
 // Rays whose walk is cut write nothing.
 void RayTracer::markAllCut() {
     commands_.begin();
-    commands_.pass("mark", {{&hits_, gpu::Access::transfer_write}}, [&](const gpu::Pass& pass) {
-        vkCmdFillBuffer(pass.commandBuffer(), hits_.handle(), 0, VK_WHOLE_SIZE, kRayCut);
+    commands_.pass("mark", {{&hits_, gpu::Access::transfer_write}}, [&](VkCommandBuffer recording) {
+        vkCmdFillBuffer(recording, hits_.handle(), 0, VK_WHOLE_SIZE, kRayCut);
     });
     commands_.submit();
     commands_.wait();

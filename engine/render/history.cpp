@@ -31,11 +31,6 @@ History::History(gpu::Device& device, uvec2 size, bool layers) {
     nothing = storageImage(device, "nothing", uvec2(1), kFloat4);
 }
 
-// The texel that stands for nothing is stated like what it stands for: validation layers see it bound.
-gpu::Use History::orderSumsUse() const {
-    return {order_sums != nullptr ? order_sums : &nothing, gpu::Access::compute_read_write};
-}
-
 std::vector<gpu::BoundResource> History::resources() const {
     std::vector<gpu::BoundResource> list{
         {"gbuffer", &gbuffer},           {"radiance_image", &radiance},

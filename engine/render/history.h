@@ -11,9 +11,6 @@ struct History {
     History(gpu::Device& device, uvec2 size, bool layers);
 
     [[nodiscard]] std::vector<gpu::BoundResource> resources() const;
-    /// What passes that follow paths touch of the sums by order.
-    [[nodiscard]] gpu::Use orderSumsUse() const;
-
     gpu::Image gbuffer, depth, radiance;
     gpu::Image mean_high, mean_low, squares_high, squares_low;
     gpu::Image aov_albedo, aov_normal, aov_motion;

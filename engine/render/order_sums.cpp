@@ -72,11 +72,11 @@ void OrderSums::restart() {
 void OrderSums::clear() {
     gpu::Commands commands(*device_);
     commands.begin();
-    commands.pass("clear orders", {{&image_, gpu::Access::transfer_write}}, [&](const gpu::Pass& pass) {
+    commands.pass("clear orders", {{&image_, gpu::Access::transfer_write}}, [&](VkCommandBuffer recording) {
         const VkClearColorValue black{};
         const VkImageSubresourceRange whole{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-        vkCmdClearColorImage(pass.commandBuffer(), image_.handle(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
-                             &black, 1, &whole);
+        vkCmdClearColorImage(recording, image_.handle(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &black, 1,
+                             &whole);
     });
     commands.submit();
     commands.wait();

@@ -1,17 +1,15 @@
 #include "licht/render/programs.h"
 
+#include "licht/render/gbuffer.h"
 #include "licht/spirv/accumulate_comp.h"
 #include "licht/spirv/aov_comp.h"
-#include "licht/spirv/gbuffer_frag.h"
-#include "licht/spirv/gbuffer_vert.h"
 #include "licht/spirv/path_comp.h"
 #include "licht/spirv/tonemap_comp.h"
 
 namespace licht {
 
 Programs::Programs(gpu::Device& device, const gpu::SpecConstants& constants, bool with_layers)
-    : gbuffer(gpu::Program::raster(device, "gbuffer", gbuffer_vert, gbuffer_frag,
-                                   {{VK_FORMAT_R32G32B32A32_UINT}, VK_FORMAT_D32_SFLOAT}, constants)),
+    : gbuffer(gbufferProgram(device, constants)),
       path(gpu::Program::compute(device, "path", path_comp, constants)),
       accumulate(gpu::Program::compute(device, "accumulate", accumulate_comp, constants)),
       tonemap(gpu::Program::compute(device, "tonemap", tonemap_comp, constants)) {

@@ -19,8 +19,6 @@
 namespace licht {
 namespace {
 
-using gpu::Access;
-
 constexpr std::uint32_t kTile = 8;
 // The rays before a shadow ray share a word with its target: the rasteriser's, and two a bounce.
 static_assert(1 + 2 * kMostQueueBounces < 1U << kShadowTargetShift);
@@ -105,76 +103,33 @@ void Queues::bind(gpu::Device& device, const std::vector<gpu::BoundResource>& re
     }
 }
 
-void Queues::record(gpu::Commands& commands, const History& history, std::size_t slot,
-                    const gpu::Buffer& counters, const SamplePush& sample) const {
+void Queues::record(gpu::Commands& commands, std::uint32_t width, bool timed_by_bounce, std::size_t slot,
+                    const SamplePush& sample) const {
     QueuePush push{sample.sample_index, sample.first_row, sample.row_count, 0};
-    const std::uint32_t width = history.gbuffer.extent().width;
-    const gpu::Use counts{&counts_, Access::compute_read_write};
-    const gpu::Use counted{&counters, Access::compute_read_write};
-    const gpu::Use paths{&paths_, Access::compute_read_write};
-    const gpu::Use groups{&groups_, Access::indirect_read};
-    // Where orders are kept, passes are told apart by the bounce, so that each order has its time.
-    const auto timed = [&](const char* name) {
-        return history.order_sums != nullptr ? fmt::format("{} {}", name, push.bounce) : std::string(name);
+    const auto bound = [slot](const Kernel& kernel) {
+        return gpu::BoundProgram{kernel.program, kernel.bindings[slot]};
     };
-    const auto used = [&](std::initializer_list<gpu::Use> uses) {
-        std::vector<gpu::Use> all(uses);
-        all.push_back(history.orderSumsUse());
-        return all;
+    const gpu::Threads pixels{width, push.row_count};
+    const auto overQueue = [&](const char* name, const Kernel& kernel, std::uint32_t which) {
+        const std::string timed =
+            timed_by_bounce ? fmt::format("{} {}", name, push.bounce) : std::string(name);
+        commands.dispatchIndirect(timed, bound(kernel), push, groups_, which * sizeof(uvec4));
     };
-    const auto overPixels = [&](const char* name, const Kernel& kernel,
-                                std::initializer_list<gpu::Use> uses) {
-        commands.pass(name, used(uses), [&](const gpu::Pass& pass) {
-            pass.dispatch(kernel.program, kernel.bindings[slot], push, width, push.row_count);
-        });
-    };
-    const auto overQueue = [&](const char* name, const Kernel& kernel, std::uint32_t which,
-                               std::initializer_list<gpu::Use> uses) {
-        commands.pass(timed(name), used(uses), [&](const gpu::Pass& pass) {
-            pass.dispatchIndirect(kernel.program, kernel.bindings[slot], push, groups_,
-                                  which * sizeof(uvec4));
-        });
-    };
-    const auto prepare = [&] {
-        commands.pass("path prepare", {counts, counted, {&groups_, Access::compute_write}},
-                      [&](const gpu::Pass& pass) {
-                          pass.dispatch(prepare_.program, prepare_.bindings[slot], push, 1);
-                      });
-    };
+    const auto prepare = [&] { commands.dispatch("path prepare", bound(prepare_), push, {1}); };
 
-    commands.pass("path clear", {{&counts_, Access::transfer_write}}, [&](const gpu::Pass& pass) {
-        vkCmdFillBuffer(pass.commandBuffer(), counts_.handle(), 0, VK_WHOLE_SIZE, 0);
+    commands.pass("path clear", {{&counts_, gpu::Access::transfer_write}}, [&](VkCommandBuffer recording) {
+        vkCmdFillBuffer(recording, counts_.handle(), 0, VK_WHOLE_SIZE, 0);
     });
-    overPixels(
-        "path start", start_,
-        {{&history.gbuffer, Access::compute_read}, counts, counted, paths, {&hits_, Access::compute_write}});
+    commands.dispatch("path start", bound(start_), push, pixels);
     for (push.bounce = 0; push.bounce <= bounces_; ++push.bounce) {
         prepare();
-        overQueue("path shade", shade_, kCountHits,
-                  {groups,
-                   counts,
-                   counted,
-                   paths,
-                   {&hits_, Access::compute_read},
-                   {&rays_, Access::compute_write},
-                   {&shadows_, Access::compute_write}});
+        overQueue("path shade", shade_, kCountHits);
         if (push.bounce == bounces_) break;
         prepare();
-        overQueue("path shadow", shadow_, kCountShadows,
-                  {groups, counts, counted, paths, {&shadows_, Access::compute_read}});
-        overQueue("path trace", trace_, kCountRays,
-                  {groups,
-                   counts,
-                   counted,
-                   paths,
-                   {&rays_, Access::compute_read},
-                   {&hits_, Access::compute_write}});
+        overQueue("path shadow", shadow_, kCountShadows);
+        overQueue("path trace", trace_, kCountRays);
     }
-    overPixels("path finish", finish_,
-               {{&history.gbuffer, Access::compute_read},
-                {&history.radiance, Access::compute_write},
-                paths,
-                counted});
+    commands.dispatch("path finish", bound(finish_), push, pixels);
 }
 
 }  // namespace licht

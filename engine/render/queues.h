@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "licht/gpu/commands.h"
-#include "licht/render/history.h"
 #include "licht/shared/frame.h"
 
 namespace licht {
@@ -22,9 +21,10 @@ public:
     void bind(gpu::Device& device, const std::vector<gpu::BoundResource>& resources,
               std::span<const gpu::Buffer* const> counters);
 
-    /// The passes of a slice, their names beginning with "path".
-    void record(gpu::Commands& commands, const History& history, std::size_t slot,
-                const gpu::Buffer& counters, const SamplePush& sample) const;
+    /// The passes of a slice, their names beginning with "path". Timed by the bounce, each order of light has
+    /// its time.
+    void record(gpu::Commands& commands, std::uint32_t width, bool timed_by_bounce, std::size_t slot,
+                const SamplePush& sample) const;
 
     /// Rows that a dispatch may span.
     [[nodiscard]] std::uint32_t mostRows() const { return most_rows_; }

@@ -13,9 +13,9 @@
 #include "licht/gpu/upload_image.h"
 #include "licht/on_device/gpu_scene.h"
 #include "licht/render/adaptive_rounds.h"
+#include "licht/render/gbuffer.h"
 #include "licht/render/history.h"
 #include "licht/render/order_sums.h"
-#include "licht/render/passes.h"
 #include "licht/render/programs.h"
 #include "licht/render/queues.h"
 #include "licht/render/view.h"
@@ -129,6 +129,13 @@ struct Renderer::State {
 
     void runEveryProgramOnce();
     void recordSamples(gpu::Commands& commands, std::size_t slot, const SamplePush& push);
+    void recordAccumulate(gpu::Commands& commands, const SamplePush& push) {
+        commands.dispatch("accumulate", {programs->accumulate, accumulate_bindings}, push, wholePicture());
+    }
+    void recordLayers(gpu::Commands& commands, const SamplePush& push) {
+        commands.dispatch("layers", {programs->layers, layer_bindings}, push, wholePicture());
+    }
+    gpu::Threads wholePicture() const { return {settings.size.x, settings.size.y}; }
 
     void resize(uvec2 size);
     void writeFrame(const ViewRecord& view, const ViewRecord& previous);
@@ -161,10 +168,10 @@ struct Renderer::State {
 
 void Renderer::State::recordSamples(gpu::Commands& commands, std::size_t slot, const SamplePush& push) {
     if (queues) {
-        queues->record(commands, *history, slot, slots[slot].counters, push);
+        queues->record(commands, settings.size.x, settings.orders, slot, push);
     } else {
-        recordPath(commands, programs->path, slots[slot].path, *history, slots[slot].counters, push,
-                   paths_per_thread);
+        commands.dispatch("path", {programs->path, slots[slot].path}, push,
+                          {settings.size.x, (push.row_count + paths_per_thread - 1) / paths_per_thread});
     }
 }
 
@@ -175,11 +182,11 @@ void Renderer::State::runEveryProgramOnce() {
     push.row_count = 1;
     gpu::Commands commands(device);
     commands.begin();
-    recordGbuffer(commands, programs->gbuffer, gbuffer_bindings, gpu_scene, *history, push);
+    recordGbuffer(commands, {programs->gbuffer, gbuffer_bindings}, gpu_scene, *history, push);
     recordSamples(commands, 0, push);
-    recordAccumulate(commands, programs->accumulate, accumulate_bindings, *history, push);
-    if (settings.aovs.any()) recordLayers(commands, programs->layers, layer_bindings, *history, push);
-    recordTonemap(commands, programs->tonemap, tonemap_bindings, history->mean_high, *history, TonemapPush{});
+    recordAccumulate(commands, push);
+    if (settings.aovs.any()) recordLayers(commands, push);
+    commands.dispatch("tonemap", {programs->tonemap, tonemap_bindings}, TonemapPush{}, wholePicture());
     commands.submit();
     commands.wait();
     std::memset(slots[0].counters.mapped(), 0, sizeof(CounterRecord));
@@ -297,13 +304,13 @@ void Renderer::renderSample() {
         push.row_count = std::min(rows, s.settings.size.y - push.first_row);
         Slot& slot = s.nextSlot();
         if (push.first_row == 0)
-            recordGbuffer(slot.commands, s.programs->gbuffer, s.gbuffer_bindings, s.gpu_scene, *s.history,
+            recordGbuffer(slot.commands, {s.programs->gbuffer, s.gbuffer_bindings}, s.gpu_scene, *s.history,
                           push);
         s.recordSamples(slot.commands, static_cast<std::size_t>(&slot - s.slots.data()), push);
         if (push.first_row + push.row_count == s.settings.size.y) {
-            recordAccumulate(slot.commands, s.programs->accumulate, s.accumulate_bindings, *s.history, push);
+            s.recordAccumulate(slot.commands, push);
             if (s.settings.aovs.any() && push.count_before < kMostLayerSamples) {
-                recordLayers(slot.commands, s.programs->layers, s.layer_bindings, *s.history, push);
+                s.recordLayers(slot.commands, push);
                 ++s.history->aov_samples;
             }
         }
@@ -405,8 +412,7 @@ void Renderer::recordDisplay(gpu::Commands& commands, Tonemap curve, float expos
     push.exposure = std::exp2(exposure_ev);
     push.curve = static_cast<uint>(curve);
     if (!s.rounds) {
-        recordTonemap(commands, s.programs->tonemap, s.tonemap_bindings, s.history->mean_high, *s.history,
-                      push);
+        commands.dispatch("tonemap", {s.programs->tonemap, s.tonemap_bindings}, push, s.wholePicture());
         return;
     }
     // The history holds the last round alone.
@@ -418,7 +424,7 @@ void Renderer::recordDisplay(gpu::Commands& commands, Tonemap curve, float expos
         gpu::Bindings(s.device, s.programs->tonemap,
                       std::array<gpu::BoundResource, 2>{
                           {{"mean_high", &s.folded_mean}, {"display_image", &s.history->display}}});
-    recordTonemap(commands, s.programs->tonemap, s.folded_bindings, s.folded_mean, *s.history, push);
+    commands.dispatch("tonemap", {s.programs->tonemap, s.folded_bindings}, push, s.wholePicture());
 }
 
 Image Renderer::readDisplay(Tonemap curve, float exposure_ev) {

@@ -178,7 +178,7 @@ bool Swapchain::present(const gpu::Image& source, const std::function<void(gpu::
         record(frame.commands);
     }
     frame.commands.pass("present", {{&source, gpu::Access::transfer_read}},
-                        [&](const gpu::Pass& pass) { copy(pass.commandBuffer(), source, target.image); });
+                        [&](VkCommandBuffer recording) { copy(recording, source, target.image); });
     frame.commands.submit(frame.acquired, target.rendered);
 
     VkPresentInfoKHR info{};

@@ -78,8 +78,7 @@ public:
         const auto count = static_cast<std::uint32_t>(questions.size());
         gpu::Commands commands(device);
         commands.begin();
-        commands.pass("leave", {{&input, gpu::Access::compute_read}, {&output, gpu::Access::compute_write}},
-                      [&](const gpu::Pass& pass) { pass.dispatch(program_, bindings, Push{count}, count); });
+        commands.dispatch("leave", {program_, bindings}, Push{count}, {count});
         commands.submit();
         commands.wait();
         const std::vector<std::byte> bytes = gpu::readBuffer(device, output);

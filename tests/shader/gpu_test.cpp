@@ -11,11 +11,14 @@
 #include "licht/core/error.h"
 #include "licht/gpu/commands.h"
 #include "licht/gpu/device_select.h"
+#include "licht/spirv/gpu_access_comp.h"
 #include "licht/spirv/gpu_everything_comp.h"
 #include "licht/spirv/gpu_sample_comp.h"
 #include "licht/spirv/gpu_step_comp.h"
+#include "licht/spirv/gpu_texels_comp.h"
 #include "licht/spirv/gpu_triangle_frag.h"
 #include "licht/spirv/gpu_triangle_vert.h"
+#include "licht/spirv/gpu_writes_frag.h"
 
 namespace licht::gpu {
 namespace {
@@ -108,6 +111,18 @@ TEST(Reflect, namesTypesAndSizesComeFromTheModule) {
     EXPECT_EQ(found, expected) << "what is declared and not used needs no resource";
 }
 
+TEST(Reflect, readsAndWritesComeFromTheModule) {
+    std::map<std::string, std::string> found;
+    for (const ReflectedBinding& binding : reflect(gpu_access_comp).bindings) {
+        found[binding.name] = std::string(binding.read ? "r" : "") + (binding.written ? "w" : "");
+    }
+    const std::map<std::string, std::string> expected = {
+        {"texels", "r"},         {"sampled", "r"},         {"uniforms", "r"},      {"read_buffer", "r"},
+        {"written_buffer", "w"}, {"changed_buffer", "rw"}, {"mixed_buffer", "rw"}, {"read_image", "r"},
+        {"written_image", "w"},  {"changed_image", "rw"},  {"read_texels", "r"},   {"written_texels", "w"}};
+    EXPECT_EQ(found, expected);
+}
+
 TEST(Reflect, structsAreFoundWithStd430Offsets) {
     std::map<std::string, std::pair<std::uint32_t, std::uint32_t>> found;
     for (const ReflectedMember& member : reflectStruct(gpu_everything_comp, "Item")) {
@@ -165,14 +180,7 @@ TEST(Compute, oneOfEverything) {
     } push;
     Commands commands(device);
     commands.begin();
-    commands.pass("everything",
-                  {{&table, Access::compute_read},
-                   {&items, Access::compute_read},
-                   {&page_a, Access::compute_read},
-                   {&page_b, Access::compute_read},
-                   {&result, Access::compute_write},
-                   {&picture, Access::compute_write}},
-                  [&](const Pass& pass) { pass.dispatch(program, bindings, push, kWidth, kHeight); });
+    commands.dispatch("everything", {program, bindings}, push, {kWidth, kHeight});
     commands.submit();
     commands.wait();
 
@@ -205,15 +213,14 @@ TEST(Compute, misuseNamesTheCulprit) {
     const Bindings bindings(device, program, resources);
     Commands commands(device);
     commands.begin();
-    commands.pass("wrong pushes", {}, [&](const Pass& pass) {
-        const std::string size =
-            textOf<DeviceError>([&] { pass.dispatch(program, bindings, std::uint64_t{0}, 1); });
-        EXPECT_TRUE(contains(size, "4 bytes") && contains(size, "8 were")) << size;
+    const std::string size = textOf<DeviceError>([&] {
+        commands.dispatch("wrong pushes", {program, bindings}, std::uint64_t{0}, {1});
     });
+    EXPECT_TRUE(contains(size, "4 bytes") && contains(size, "8 were")) << size;
     EXPECT_TRUE(contains(
         textOf<DeviceError>([&] {
             commands.pass("two layouts", {{&image, Access::compute_sample}, {&image, Access::compute_write}},
-                          [](const Pass&) {});
+                          [](VkCommandBuffer) {});
         }),
         "'picture'"));
     commands.submit();
@@ -239,12 +246,7 @@ std::vector<std::uint32_t> ping(std::uint32_t steps, std::size_t recordings) {
         commands.push_back(std::make_unique<Commands>(device));
         commands.back()->begin();
         for (std::uint32_t step = 0; step < steps; ++step) {
-            const Buffer& from = step % 2 == 0 ? a : b;
-            const Buffer& to = step % 2 == 0 ? b : a;
-            commands.back()->pass("step", {{&from, Access::compute_read}, {&to, Access::compute_write}},
-                                  [&](const Pass& pass) {
-                                      pass.dispatch(program, bindings[step % 2], StepPush{kCount}, kCount);
-                                  });
+            commands.back()->dispatch("step", {program, bindings[step % 2]}, StepPush{kCount}, {kCount});
         }
         commands.back()->submit();
     }
@@ -266,13 +268,25 @@ TEST(Commands, chainedPassesWaitForEachOther) {
     }
 }
 
-TEST(Commands, aMissingUseIsCaughtByValidation) {
+/// A device of its own, whose validation messages do not fail the test.
+struct WatchedDevice {
+    WatchedDevice() : device(options(messages)) {}
+    static DeviceOptions options(std::vector<std::string>& messages) {
+        DeviceOptions options;
+        options.device = std::to_string(testDevice().report().index);
+        options.validation = true;
+        options.on_validation_message = [&](const std::string& message) { messages.push_back(message); };
+        return options;
+    }
     std::vector<std::string> messages;
-    DeviceOptions options;
-    options.device = std::to_string(testDevice().report().index);
-    options.validation = true;
-    options.on_validation_message = [&](const std::string& message) { messages.push_back(message); };
-    Device device(options);
+    Device device;
+};
+
+/// Steps there and back between two buffers, and what validation says to that.
+template <typename Record>
+std::vector<std::string> messagesOfSteps(const Record& record) {
+    WatchedDevice watched;
+    Device& device = watched.device;
     const Program program = Program::compute(device, "step", gpu_step_comp, {});
     const std::vector<std::uint32_t> ones(64, 1);
     const Buffer a = uploadBuffer(device, "a", std::span<const std::uint32_t>(ones), kStorage);
@@ -281,16 +295,84 @@ TEST(Commands, aMissingUseIsCaughtByValidation) {
     const std::vector<BoundResource> back = {{"from", &b}, {"to", &a}};
     const Bindings there(device, program, forth);
     const Bindings home(device, program, back);
-    ASSERT_TRUE(messages.empty());
+    EXPECT_EQ(watched.messages, std::vector<std::string>{});
     Commands commands(device);
     commands.begin();
-    commands.pass("forth", {}, [&](const Pass& pass) { pass.dispatch(program, there, StepPush{64}, 64); });
-    commands.pass("back", {}, [&](const Pass& pass) { pass.dispatch(program, home, StepPush{64}, 64); });
+    record(commands, program, there);
+    record(commands, program, home);
     commands.submit();
     commands.wait();
+    EXPECT_EQ(device.validationMessages(), watched.messages);
+    return watched.messages;
+}
+
+TEST(Commands, usesFollowFromTheShaders) {
+    const auto messages =
+        messagesOfSteps([](Commands& commands, const Program& program, const Bindings& bindings) {
+            commands.dispatch("step", {program, bindings}, StepPush{64}, {64});
+        });
+    EXPECT_EQ(messages, std::vector<std::string>{});
+}
+
+TEST(Commands, aMissingUseIsCaughtByValidation) {
+    const auto messages =
+        messagesOfSteps([](Commands& commands, const Program& program, const Bindings& bindings) {
+            commands.pass("no uses", {}, [&](VkCommandBuffer recording) {
+                const VkDescriptorSet set = bindings.set();
+                const StepPush push{64};
+                vkCmdBindPipeline(recording, VK_PIPELINE_BIND_POINT_COMPUTE, program.pipeline());
+                vkCmdBindDescriptorSets(recording, VK_PIPELINE_BIND_POINT_COMPUTE, program.layout(), 0, 1,
+                                        &set, 0, nullptr);
+                vkCmdPushConstants(recording, program.layout(), VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(push),
+                                   &push);
+                vkCmdDispatch(recording, 1, 1, 1);
+            });
+        });
     ASSERT_FALSE(messages.empty());
     EXPECT_TRUE(contains(messages[0], "SYNC-HAZARD")) << messages[0];
-    EXPECT_EQ(device.validationMessages(), messages);
+}
+
+/// Runs a texel program over one buffer, back on itself: a texel view stands for its buffer, wherever that
+/// has moved.
+TEST(Commands, texelViewsStandForTheirBuffer) {
+    Device& device = testDevice();
+    constexpr std::uint32_t kCount = 256;
+    const Program program = Program::compute(device, "texels", gpu_texels_comp, {});
+    Buffer made = upload("values", std::vector<std::uint32_t>(kCount, 1),
+                         kStorage | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT);
+    const TexelView view(device, made, VK_FORMAT_R32_UINT);
+    const std::vector<BoundResource> resources = {{"texels", &view}, {"to", &made}};
+    const Bindings bindings(device, program, resources);
+    const Buffer values = std::move(made);
+    EXPECT_EQ(&view.tracked(), &values.tracked());
+    Commands commands(device);
+    commands.begin();
+    for (int i = 0; i < 8; ++i) {
+        commands.dispatch("texels", {program, bindings}, StepPush{kCount}, {kCount});
+    }
+    commands.submit();
+    commands.wait();
+    EXPECT_EQ(as<std::uint32_t>(readBuffer(device, values)), std::vector<std::uint32_t>(kCount, 511));
+}
+
+TEST(Commands, indirectDispatchesWaitForTheirArguments) {
+    Device& device = testDevice();
+    const Program program = Program::compute(device, "step", gpu_step_comp, {});
+    const Buffer zeros = upload("zeros", std::vector<std::uint32_t>(64, 0));
+    const Buffer arguments(device, "arguments", 256, kStorage | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT,
+                           Memory::device);
+    const Buffer result = upload("result", std::vector<std::uint32_t>(64, 0));
+    const std::vector<BoundResource> count = {{"from", &zeros}, {"to", &arguments}};
+    const std::vector<BoundResource> use = {{"from", &zeros}, {"to", &result}};
+    const Bindings counting(device, program, count);
+    const Bindings using_them(device, program, use);
+    Commands commands(device);
+    commands.begin();
+    commands.dispatch("count", {program, counting}, StepPush{64}, {64});  // 1, 1, 1
+    commands.dispatchIndirect("use", {program, using_them}, StepPush{64}, arguments, 0);
+    commands.submit();
+    commands.wait();
+    EXPECT_EQ(as<std::uint32_t>(readBuffer(device, result)), std::vector<std::uint32_t>(64, 1));
 }
 
 TEST(Commands, timersMeasureTheDevice) {
@@ -298,7 +380,7 @@ TEST(Commands, timersMeasureTheDevice) {
     if (device.timestampBits() == 0) {
         Commands commands(device);
         commands.begin();
-        commands.pass("nothing", {}, [](const Pass&) {});
+        commands.pass("nothing", {}, [](VkCommandBuffer) {});
         commands.submit();
         commands.wait();
         EXPECT_TRUE(commands.times().empty());
@@ -309,11 +391,11 @@ TEST(Commands, timersMeasureTheDevice) {
     const auto start = std::chrono::steady_clock::now();
     for (int frame = 0; frame < 2; ++frame) {
         commands.begin();
-        commands.pass("small", {{&large, Access::transfer_write}}, [&](const Pass& pass) {
-            vkCmdFillBuffer(pass.commandBuffer(), large.handle(), 0, 4, 1U);
+        commands.pass("small", {{&large, Access::transfer_write}}, [&](VkCommandBuffer recording) {
+            vkCmdFillBuffer(recording, large.handle(), 0, 4, 1U);
         });
-        commands.pass("large", {{&large, Access::transfer_write}}, [&](const Pass& pass) {
-            vkCmdFillBuffer(pass.commandBuffer(), large.handle(), 0, VK_WHOLE_SIZE, 2U);
+        commands.pass("large", {{&large, Access::transfer_write}}, [&](VkCommandBuffer recording) {
+            vkCmdFillBuffer(recording, large.handle(), 0, VK_WHOLE_SIZE, 2U);
         });
         commands.submit();
         commands.wait(60.0);
@@ -331,9 +413,9 @@ TEST(Commands, tooManyPassesAreRefused) {
     Commands commands(testDevice());
     commands.begin();
     for (std::uint32_t i = 0; i < Commands::kMaxPasses; ++i) {
-        commands.pass("empty", {}, [](const Pass&) {});
+        commands.pass("empty", {}, [](VkCommandBuffer) {});
     }
-    EXPECT_THROW(commands.pass("one more", {}, [](const Pass&) {}), DeviceError);
+    EXPECT_THROW(commands.pass("one more", {}, [](VkCommandBuffer) {}), DeviceError);
     commands.submit();
     commands.wait();
 }
@@ -365,27 +447,20 @@ std::vector<std::uint32_t> draw(const std::vector<float>& positions, VkCullModeF
     for (int frame = 0; frame < 2; ++frame) {
         commands.begin();
         commands.pass("copy", {{&source, Access::transfer_read}, {&vertices, Access::transfer_write}},
-                      [&](const Pass& pass) {
+                      [&](VkCommandBuffer recording) {
                           const VkBufferCopy copy{0, 0, source.size()};
-                          vkCmdCopyBuffer(pass.commandBuffer(), source.handle(), vertices.handle(), 1, &copy);
+                          vkCmdCopyBuffer(recording, source.handle(), vertices.handle(), 1, &copy);
                       });
         // A second kind of reader after this one must be made to see the copy too.
-        commands.pass("look", {{&vertices, Access::compute_read}}, [](const Pass&) {});
-        commands.pass("draw",
-                      {{&vertices, Access::raster_read},
-                       {&color, Access::color_target},
-                       {&depth, Access::depth_target}},
-                      [&](const Pass& pass) {
-                          pass.render(std::array{ColorTarget{&color}}, &depth, [&] {
-                              pass.bind(program, bindings);
-                              vkCmdSetCullMode(pass.commandBuffer(), cull);
-                              vkCmdDraw(pass.commandBuffer(),
-                                        static_cast<std::uint32_t>(positions.size() / 4), 1, 0, 0);
-                          });
+        commands.pass("look", {{&vertices, Access::compute_read}}, [](VkCommandBuffer) {});
+        const ColorTarget target{&color};
+        commands.draw("draw", {program, bindings}, {std::span(&target, 1), &depth},
+                      [&](VkCommandBuffer recording) {
+                          vkCmdSetCullMode(recording, cull);
+                          vkCmdDraw(recording, static_cast<std::uint32_t>(positions.size() / 4), 1, 0, 0);
                       });
         const std::array size = {kSide, kSide};
-        commands.pass("sample", {{&color, Access::compute_sample}, {&result, Access::compute_write}},
-                      [&](const Pass& pass) { pass.dispatch(sample, sample_bindings, size, kSide, kSide); });
+        commands.dispatch("sample", {sample, sample_bindings}, size, {kSide, kSide});
         commands.submit();
         commands.wait();
     }
@@ -409,6 +484,17 @@ TEST(Raster, aTriangleCoversItsPixelCentres) {
         }
     }
     EXPECT_EQ(draw(positions, VK_CULL_MODE_FRONT_BIT), std::vector<std::uint32_t>(kSide * kSide, 0));
+}
+
+TEST(Raster, whatItCouldWriteUnorderedIsRefused) {
+    Device& device = testDevice();
+    const Program program = Program::raster(device, "writes", gpu_triangle_vert, gpu_writes_frag,
+                                            {{VK_FORMAT_R32_UINT}, VK_FORMAT_UNDEFINED}, {});
+    const Buffer buffer = upload("buffer", std::vector<std::uint32_t>(16));
+    const std::vector<BoundResource> resources = {{"vertices", &buffer}, {"seen", &buffer}};
+    const std::string text =
+        textOf<DeviceError>([&] { const Bindings bindings(device, program, resources); });
+    EXPECT_TRUE(contains(text, "'writes'") && contains(text, "'seen'")) << text;
 }
 
 TEST(Raster, theGreaterDepthIsNearer) {

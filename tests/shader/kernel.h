@@ -33,9 +33,7 @@ public:
         const gpu::Bindings bindings(device, program_, others);
         gpu::Commands commands(device);
         commands.begin();
-        commands.pass(program_.name(),
-                      {{&input, gpu::Access::compute_read}, {&output, gpu::Access::compute_write}},
-                      [&](const gpu::Pass& pass) { pass.dispatch(program_, bindings, push, threads); });
+        commands.dispatch(program_.name(), {program_, bindings}, push, {threads});
         commands.submit();
         commands.wait();
         const std::vector<std::byte> bytes = gpu::readBuffer(device, output);

@@ -5,9 +5,8 @@
 
 #include "licht/gpu/commands.h"
 #include "licht/on_device/gpu_scene.h"
+#include "licht/render/gbuffer.h"
 #include "licht/render/history.h"
-#include "licht/render/passes.h"
-#include "licht/render/programs.h"
 #include "licht/render/view.h"
 #include "licht/shared/effects.h"
 #include "licht/shared/frame.h"
@@ -24,7 +23,7 @@ std::vector<std::byte> lookAtFirstHits(const Scene& scene, uvec2 size, const std
     History history(device, size, false);
     gpu::SpecConstants constants = gpu_scene.constants();
     for (uint e = 0; e < kEffectCount; ++e) constants[e] = effects.has(e) ? 1U : 0U;
-    const Programs programs(device, constants, false);
+    const gpu::Program gbuffer = gbufferProgram(device, constants);
     const gpu::Program program = gpu::Program::compute(device, name, kernel, constants);
 
     FrameRecord frame{};
@@ -40,16 +39,14 @@ std::vector<std::byte> lookAtFirstHits(const Scene& scene, uvec2 size, const std
     for (const gpu::BoundResource& r : history.resources()) resources.push_back(r);
     resources.push_back({"FrameBlock", &frame_buffer});
     resources.push_back({"OutcomeBlock", &outcome});
-    const gpu::Bindings gbuffer_bindings(device, programs.gbuffer, resources);
+    const gpu::Bindings gbuffer_bindings(device, gbuffer, resources);
     const gpu::Bindings bindings(device, program, resources);
     SamplePush push{};
     push.row_count = size.y;
     gpu::Commands commands(device);
     commands.begin();
-    recordGbuffer(commands, programs.gbuffer, gbuffer_bindings, gpu_scene, history, push);
-    commands.pass(
-        name, {{&history.gbuffer, gpu::Access::compute_read}, {&outcome, gpu::Access::compute_read_write}},
-        [&](const gpu::Pass& pass) { pass.dispatch(program, bindings, push, size.x, size.y); });
+    recordGbuffer(commands, {gbuffer, gbuffer_bindings}, gpu_scene, history, push);
+    commands.dispatch(name, {program, bindings}, push, {size.x, size.y});
     const gpu::Buffer* visible = &outcome;
     commands.makeVisibleToHost(std::span(&visible, 1));
     commands.submit();

@@ -60,11 +60,7 @@ std::vector<std::optional<BvhHit>> Tracer::trace(const std::vector<Ray>& rays, T
     gpu::Commands commands(device);
     commands.begin();
     const std::uint32_t threads = (query.ray_count + rays_per_thread_ - 1) / rays_per_thread_;
-    commands.pass("trace",
-                  {{&input, gpu::Access::compute_read},
-                   {&output, gpu::Access::compute_write},
-                   {&lost, gpu::Access::compute_read_write}},
-                  [&](const gpu::Pass& pass) { pass.dispatch(program_, bindings, query, threads); });
+    commands.dispatch("trace", {program_, bindings}, query, {threads});
     const gpu::Buffer* told = &lost;
     commands.makeVisibleToHost(std::span(&told, 1));
     commands.submit();

@@ -1,0 +1,15 @@
+#pragma once
+// Primary hits by rasterising: frame + scene -> gbuffer, depth.
+#include "licht/gpu/commands.h"
+#include "licht/on_device/gpu_scene.h"
+#include "licht/render/history.h"
+#include "licht/shared/frame.h"
+
+namespace licht {
+
+gpu::Program gbufferProgram(gpu::Device& device, const gpu::SpecConstants& constants);
+
+void recordGbuffer(gpu::Commands& commands, const gpu::BoundProgram& program, const GpuScene& scene,
+                   const History& history, const SamplePush& push);
+
+}  // namespace licht
