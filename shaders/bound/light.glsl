@@ -66,7 +66,7 @@ LightAsker askerAt(Surface s, vec3 wo) {
     if (kGlossy && kLights == kLightsTree) {
         float cos_o = dot(wo, s.frame.normal);
         asker.wo = packOctahedral(wo);
-        asker.gloss = cos_o > 0.0 ? packHalf2x16(vec2(s.bsdf.alpha, coatOverBase(s.bsdf, cos_o))) : 0u;
+        asker.gloss = cos_o > 0.0 ? packHalf2x16(glossTowards(s.bsdf, cos_o)) : 0u;
     }
     return asker;
 }

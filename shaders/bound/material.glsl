@@ -70,17 +70,17 @@ Bsdf bsdfOf(MaterialRecord m, uvec3 v, vec3 weights, vec3 base) {
         specular_color *= sampleSlot(m, kSlotSpecularColor, v, weights).rgb;
     }
     vec3 dielectric_f0 = min(m.dielectric_f0 * specular_color, vec3(1.0)) * specular;
-    Bsdf b = plainBsdf(base * (1.0 - metallic), max(roughness * roughness, kMinAlpha), mix(dielectric_f0, base, metallic),
-                       mix(specular, 1.0, metallic), largest(dielectric_f0), specular);
+    Bsdf b = Bsdf(Diffuse(base * (1.0 - metallic)), plainSpecular(alphaOf(roughness), mix(dielectric_f0, base, metallic), mix(specular, 1.0, metallic),
+                                                                  largest(dielectric_f0), specular));
     if (kIridescence && hasBlock(m, kBlockIridescence)) {
         IridescenceRecord iridescence = iridescenceOf(m);
         float thickness = iridescence.thickness_maximum;
         if (hasTexture(m, kSlotIridescenceThickness))
             thickness = mix(iridescence.thickness_minimum, thickness, sampleSlot(m, kSlotIridescenceThickness, v, weights).g);
-        b.film = thinFilm(iridescence.factor * sampleSlot(m, kSlotIridescence, v, weights).r, iridescence.ior, thickness);
-        b.film_dielectric_f0 = dielectric_f0;
-        b.film_metal_f0 = base;
-        b.metallic = metallic;
+        b.specular.thin_film = thinFilm(iridescence.factor * sampleSlot(m, kSlotIridescence, v, weights).r, iridescence.ior, thickness);
+        b.specular.film_dielectric_f0 = dielectric_f0;
+        b.specular.film_metal_f0 = base;
+        b.specular.metallic = metallic;
     }
     return b;
 }

@@ -41,11 +41,11 @@ vec3 directLight(Surface s, LightAsker asker, vec3 wo_local, uint dimension, out
     vec3 wi = normalize(light.direction);
     if (dot(wi, s.face_normal) <= 0.0) return vec3(0.0);
     vec3 wi_local = localFromWorld(s.frame, wi);
-    vec3 f = bsdfEvaluate(s.bsdf, wo_local, wi_local);
-    if (largest(f) <= 0.0) return vec3(0.0);
+    LobeValue scattered = evaluateBsdf(s.bsdf, wo_local, wi_local);
+    if (largest(scattered.f) <= 0.0) return vec3(0.0);
     ray = RayQuery(offsetOrigin(s, wi), light.direction, light.t_max, true, light.target, light.t_enough);
-    float weight = weightOfLightSample(light, bsdfPdf(s.bsdf, wo_local, wi_local));
-    return f * light.radiance * (wi_local.z * weight / light.pdf);
+    float weight = weightOfLightSample(light, scattered.pdf);
+    return scattered.f * light.radiance * (wi_local.z * weight / light.pdf);
 }
 
 // A path on its way.
@@ -132,7 +132,7 @@ vec3 extendPath(inout Path p, out RayQuery light_ray, out RayQuery path_ray) {
 
     // Sample the BSDF: the direction by the pair of numbers that is spread evenly together.
     vec4 u = sample4(g_address, dimension + kDimensionScatter);
-    BsdfSample scattered = bsdfSample(s.bsdf, wo_local, u.z, u.xy);
+    BsdfSample scattered = sampleBsdf(s.bsdf, wo_local, u.z, u.xy);
     vec3 wi = worldFromLocal(s.frame, scattered.wi);
     p.throughput *= scattered.weight;
     p.alive = scattered.valid && dot(wi, s.face_normal) > 0.0 && largest(p.throughput) > 0.0;  // below the true surface: absorbed

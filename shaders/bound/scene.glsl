@@ -14,7 +14,7 @@ layout(constant_id = kEffectNormalMaps) const bool kNormalMaps = true;
 layout(constant_id = kEffectVertexColors) const bool kVertexColors = true;
 layout(constant_id = kEffectExtraUvSets) const bool kExtraUvSets = true;
 layout(constant_id = kEffectAlpha) const bool kAlpha = true;
-// 5, kGlossy, belongs to pure/bsdf.glsl.
+// kGlossy belongs to pure/bsdf.glsl, kIridescence to pure/lobe/specular.glsl.
 layout(constant_id = kEffectEmission) const bool kEmission = true;
 layout(constant_id = kEffectLightTriangles) const bool kLightTriangles = true;
 layout(constant_id = kEffectPunctualLights) const bool kPunctualLights = true;

@@ -19,9 +19,10 @@ layout(std430, binding = 1) writeonly buffer Answers { vec4 answers[]; };      /
 void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i >= count) return;
-    Bsdf b = plainBsdf(diffuse, alpha, f0, f90, dielectric_f0, dielectric_f90);
+    Bsdf b = Bsdf(Diffuse(diffuse), plainSpecular(alpha, f0, f90, dielectric_f0, dielectric_f90));
     vec3 wo = directions[2u * i].xyz;
     vec3 wi = directions[2u * i + 1u].xyz;
-    answers[2u * i] = vec4(bsdfEvaluate(b, wo, wi), bsdfPdf(b, wo, wi));
+    LobeValue value = evaluateBsdf(b, wo, wi);
+    answers[2u * i] = vec4(value.f, value.pdf);
     answers[2u * i + 1u] = vec4(fresnelSchlick(f0, f90, wo.z), ggxD(wo, alpha));
 }

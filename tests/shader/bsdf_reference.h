@@ -28,7 +28,7 @@ struct NamedMaterial {
     Material material;
 };
 
-/// A coat that reflects everything.
+/// A specular layer that reflects everything.
 inline Material mirror(float alpha) {
     return {vec3(0.0F), alpha, vec3(1.0F), 1.0F, 0.0F, 0.0F};
 }
@@ -82,8 +82,8 @@ inline double fresnel(double f0, double f90, double cosine) {
     return f0 + (f90 - f0) * std::pow(1.0 - cosine, 5.0);
 }
 
-/// Kelemen and Szirmay-Kalos 2001: the coat's transmittance towards both directions over its mean by cosine,
-/// which 20 / 21 of f0 and 1 / 21 of f90 make.
+/// Kelemen and Szirmay-Kalos 2001: the specular layer's transmittance towards both directions over its mean
+/// by cosine, which 20 / 21 of f0 and 1 / 21 of f90 make.
 inline double passed(const Material& m, double cos_o, double cos_i) {
     const auto f0 = static_cast<double>(m.dielectric_f0);
     const auto f90 = static_cast<double>(m.dielectric_f90);
@@ -95,21 +95,22 @@ inline double f(const Material& m, int channel, const dvec3& wo, const dvec3& wi
     const dvec3 h = glm::normalize(wo + wi);
     const auto alpha = static_cast<double>(m.alpha);
     const double cosine = glm::dot(wo, h);
-    const double coat = fresnel(static_cast<double>(m.f0[channel]), static_cast<double>(m.f90), cosine) *
-                        distribution(h, alpha) / (1.0 + lambda(wo, alpha) + lambda(wi, alpha)) /
-                        (4.0 * wo.z * wi.z);
-    return static_cast<double>(m.diffuse[channel]) * passed(m, wo.z, wi.z) / std::numbers::pi + coat;
+    const double specular = fresnel(static_cast<double>(m.f0[channel]), static_cast<double>(m.f90), cosine) *
+                            distribution(h, alpha) / (1.0 + lambda(wo, alpha) + lambda(wi, alpha)) /
+                            (4.0 * wo.z * wi.z);
+    return static_cast<double>(m.diffuse[channel]) * passed(m, wo.z, wi.z) / std::numbers::pi + specular;
 }
 
-inline double coatShare(const Material& m, const dvec3& wo) {
-    double coat = 0.0;
-    double base = 0.0;
+inline double specularShare(const Material& m, const dvec3& wo) {
+    double specular = 0.0;
+    double below = 0.0;
     for (int c = 0; c < 3; ++c) {
-        coat = std::max(coat, fresnel(static_cast<double>(m.f0[c]), static_cast<double>(m.f90), wo.z));
-        base = std::max(base, static_cast<double>(m.diffuse[c]));
+        specular =
+            std::max(specular, fresnel(static_cast<double>(m.f0[c]), static_cast<double>(m.f90), wo.z));
+        below = std::max(below, static_cast<double>(m.diffuse[c]));
     }
-    if (coat == 0.0) return 0.0;
-    return base == 0.0 ? 1.0 : std::clamp(coat / (coat + base), 0.1, 0.9);
+    if (specular == 0.0) return 0.0;
+    return below == 0.0 ? 1.0 : std::clamp(specular / (specular + below), 0.1, 0.9);
 }
 
 /// Density of visible normals, solid angle of h. Heitz 2014, equation 19.
@@ -118,11 +119,11 @@ inline double visibleNormals(double alpha, const dvec3& wo, const dvec3& h) {
 }
 
 inline double pdf(const Material& m, const dvec3& wo, const dvec3& wi) {
-    const double share = coatShare(m, wo);
+    const double share = specularShare(m, wo);
     const dvec3 h = glm::normalize(wo + wi);
-    const double coat =
+    const double specular =
         share > 0.0 ? visibleNormals(static_cast<double>(m.alpha), wo, h) / (4.0 * glm::dot(wo, h)) : 0.0;
-    return share * coat + (1.0 - share) * wi.z / std::numbers::pi;
+    return share * specular + (1.0 - share) * wi.z / std::numbers::pi;
 }
 
 }  // namespace reference

@@ -22,10 +22,10 @@ layout(std430, binding = 1) writeonly buffer Answers { vec4 answers[]; };  // wi
 void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i >= count) return;
-    Bsdf b = plainBsdf(diffuse, alpha, f0, f90, dielectric_f0, dielectric_f90);
+    Bsdf b = Bsdf(Diffuse(diffuse), plainSpecular(alpha, f0, f90, dielectric_f0, dielectric_f90));
     SampleAddress a = SampleAddress(uvec2(i & 1023u, i >> 10u), sample_index, seed);
     vec4 u = random4(a, 0u);
-    BsdfSample s = bsdfSample(b, wo.xyz, u.x, u.yz);
+    BsdfSample s = sampleBsdf(b, wo.xyz, u.x, u.yz);
     answers[3u * i] = vec4(s.wi, s.valid ? s.pdf : -1.0);
     answers[3u * i + 1u] = vec4(s.weight, 0.0);
     answers[3u * i + 2u] = vec4(sampleGgxVisibleNormal(wo.xyz, alpha, u.yz), 0.0);

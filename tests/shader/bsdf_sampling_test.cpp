@@ -126,7 +126,7 @@ TEST_F(BsdfSampling, visibleNormals) {
     }
 }
 
-TEST_F(BsdfSampling, reflectionsOfTheCoat) {
+TEST_F(BsdfSampling, reflectionsOfTheSpecularLayer) {
     for (const float alpha : kAlphas) {
         const auto a = static_cast<double>(alpha);
         for (const double cosine : kCosines) {

@@ -96,9 +96,9 @@ double relativeError(const dvec3& wo, const dvec3& wi) {
     return 24.0 * kUnit + 8.0 * halfCosineError(wo, wi);
 }
 
-/// Relative, of what the coat passes: near grazing 1 - F cancels. F is below one, where a rounding is at most
-/// u / 2; that of m counts five times, and its three products, the difference to f90, scaling, adding and 1 -
-/// F follow: 6 u.
+/// Relative, of what the specular layer passes: near grazing 1 - F cancels. F is below one, where a rounding
+/// is at most u / 2; that of m counts five times, and its three products, the difference to f90, scaling,
+/// adding and 1 - F follow: 6 u.
 double passedError(const Material& m, const dvec3& wo, const dvec3& wi) {
     const auto left = [&m](double cosine) {
         return 1.0 - test::reference::fresnel(d(m.dielectric_f0), d(m.dielectric_f90), cosine);
@@ -144,9 +144,9 @@ TEST_F(Bsdf, followsTheTextbook) {
             const double tolerance = relativeError(wo, wi) + lobe;
             for (int c = 0; c < 3; ++c) {
                 const double f = test::reference::f(m.material, c, wo, wi);
-                const double base =
+                const double below =
                     d(m.material.diffuse[c]) * test::reference::passed(m.material, wo.z, wi.z) / kPi;
-                const double cancelled = base > 0.0 ? passedError(m.material, wo, wi) * base : 0.0;
+                const double cancelled = below > 0.0 ? passedError(m.material, wo, wi) * below : 0.0;
                 ASSERT_NEAR(d(answers[i][c]), f, tolerance * f + cancelled) << m.name << " " << i / 2;
             }
             const double pdf = test::reference::pdf(m.material, wo, wi);
@@ -191,12 +191,13 @@ TEST_F(Bsdf, densityIntegratesToWhatIsNotAbsorbed) {
     for (const NamedMaterial& m : materials()) {
         for (const double cosine : {1.0, 0.5, 0.1}) {
             const vec3 wo = outgoing(cosine);
-            // The base is integrated over wi and the coat over h, each with its own share of the density, so
-            // that both integrands are smooth; the coat's grid is halved to see how right it is.
+            // The diffuse layer is integrated over wi and the specular layer over h, each with its own share
+            // of the density, so that both integrands are smooth; the specular layer's grid is halved to see
+            // how right it is.
             const auto integral = [&](int steps) {
                 std::vector<vec4> pairs;
                 std::vector<double> areas;
-                const double share = test::reference::coatShare(m.material, dvec3(wo));
+                const double share = test::reference::specularShare(m.material, dvec3(wo));
                 for (int y = 0; y < steps; ++y) {
                     for (int x = 0; x < steps; ++x) {
                         const double psi = (y + 0.5) * 0.5 * kPi / steps;
@@ -240,11 +241,11 @@ RunningStatistics weights(const std::vector<Sample>& samples, int channel) {
 /// Directional albedo by the midpoint rule from the reference.
 double albedo(const Material& m, int channel, const dvec3& wo) {
     constexpr int kSteps = 512;
-    Material coat = m;
-    coat.diffuse = vec3(0.0F);
-    Material base = m;
-    base.f0 = vec3(0.0F);
-    base.f90 = 0.0F;
+    Material specular = m;
+    specular.diffuse = vec3(0.0F);
+    Material below = m;
+    below.f0 = vec3(0.0F);
+    below.f90 = 0.0F;
     double sum = 0.0;
     for (int y = 0; y < kSteps; ++y) {
         for (int x = 0; x < kSteps; ++x) {
@@ -252,12 +253,12 @@ double albedo(const Material& m, int channel, const dvec3& wo) {
             const double c =
                 std::sqrt((y + 0.5) / kSteps);  // equal steps of cos^2: the cosine's density is uniform
             const double s = std::sqrt(1.0 - c * c);
-            sum += test::reference::f(base, channel, wo, {s * std::cos(phi), s * std::sin(phi), c}) * kPi;
+            sum += test::reference::f(below, channel, wo, {s * std::cos(phi), s * std::sin(phi), c}) * kPi;
             const test::NormalCell cell = test::normalAt(d(m.alpha), (y + 0.5) * 0.5 * kPi / kSteps, phi);
             const double cos_h = glm::dot(wo, cell.h);
             const dvec3 wi = 2.0 * cos_h * cell.h - wo;
             if (cos_h > 0.0 && wi.z > 0.0)
-                sum += test::reference::f(coat, channel, wo, wi) * wi.z * 4.0 * cos_h * cell.solid_angle *
+                sum += test::reference::f(specular, channel, wo, wi) * wi.z * 4.0 * cos_h * cell.solid_angle *
                        kPi * kPi;
         }
     }
@@ -282,10 +283,10 @@ TEST_F(Bsdf, albedoIsRightAndReflectsNoMoreThanArrives) {
     }
 }
 
-TEST_F(Bsdf, baseReflectsWhatTheCoatPassesTowardsWo) {
-    // What the division by the mean is for: the base's albedo is diffuse (1 - F(wo.z)), exactly. The midpoint
-    // rule errs by at most a 24th of the second derivative of 2 c (1 - F(c)), 4 F' + 2 c F'' < 25 for every
-    // f0 and f90 up to one, over n^2; the mean, above 0.5 for all of these, divides it.
+TEST_F(Bsdf, diffuseLayerReflectsWhatTheSpecularLayerPassesTowardsWo) {
+    // What the division by the mean is for: the diffuse layer's albedo is diffuse (1 - F(wo.z)), exactly. The
+    // midpoint rule errs by at most a 24th of the second derivative of 2 c (1 - F(c)), 4 F' + 2 c F'' < 25
+    // for every f0 and f90 up to one, over n^2; the mean, above 0.5 for all of these, divides it.
     constexpr int kSteps = 1024;
     constexpr double kError = 25.0 / 24.0 / 0.5 / (kSteps * kSteps);
     for (const NamedMaterial& m : materials()) {
@@ -302,16 +303,17 @@ TEST_F(Bsdf, baseReflectsWhatTheCoatPassesTowardsWo) {
     }
 }
 
-/// A white base under a coat gets (1 - F(wo.z)) of the light back out, and a smooth coat reflects F(wo.z). A
-/// rough one reflects the mean of F over its half vectors, f0 E + (f90 - f0) M, with E <= 1 its albedo when
-/// white and M the mean of (1 - cos_h)^5. So both give more than they get by at most M - (1 - wo.z)^5, times
-/// f90 <= 1: nothing has more of it than a coat with f0 = 0 and f90 = 1.
+/// A white diffuse layer under a specular layer gets (1 - F(wo.z)) of the light back out, and a smooth
+/// specular layer reflects F(wo.z). A rough one reflects the mean of F over its half vectors, f0 E + (f90 -
+/// f0) M, with E <= 1 its albedo when white and M the mean of (1 - cos_h)^5. So both give more than they get
+/// by at most M - (1 - wo.z)^5, times f90 <= 1: nothing has more of it than a specular layer with f0 = 0 and
+/// f90 = 1.
 double mostGain(float alpha, double cosine) {
-    const Material coat{vec3(0.0F), alpha, vec3(0.0F), 1.0F, 0.0F, 1.0F};
-    return albedo(coat, 0, dvec3(outgoing(cosine))) - std::pow(1.0 - cosine, 5.0);
+    const Material specular{vec3(0.0F), alpha, vec3(0.0F), 1.0F, 0.0F, 1.0F};
+    return albedo(specular, 0, dvec3(outgoing(cosine))) - std::pow(1.0 - cosine, 5.0);
 }
 
-TEST_F(Bsdf, coatOverAWhiteBaseGainsNoMoreThanItsRoughness) {
+TEST_F(Bsdf, specularLayerOverAWhiteDiffuseOneGainsNoMoreThanItsRoughness) {
     // The largest over all angles and widths, by the same quadrature: 0.00256 at alpha 0.15, cosine 0.63.
     constexpr double kMostGain = 0.0026;
     double most = 0.0;
@@ -331,7 +333,7 @@ TEST_F(Bsdf, coatOverAWhiteBaseGainsNoMoreThanItsRoughness) {
     RecordProperty("most gain", std::to_string(most));
 }
 
-TEST_F(Bsdf, singleScatteringOfAWhiteCoat) {
+TEST_F(Bsdf, singleScatteringOfAWhiteSpecularLayer) {
     struct {
         float alpha;
         double cosine;
@@ -383,7 +385,7 @@ TEST_F(Bsdf, samplesAreSoundAtEveryAngle) {
     std::vector<NamedMaterial> all = materials();
     for (const float alpha : {1e-3F, 0.02F, 0.1F}) all.push_back({"mirror", mirror(alpha)});
     for (const NamedMaterial& m : all) {
-        const bool coat_alone = m.material.f0 == vec3(1.0F) && m.material.diffuse == vec3(0.0F);
+        const bool specular_alone = m.material.f0 == vec3(1.0F) && m.material.diffuse == vec3(0.0F);
         for (const double cosine : {1.0, 0.1, 1e-3, 1e-6, 0.0}) {
             std::size_t valid = 0;
             for (const Sample& s : sample(m.material, outgoing(cosine), 1U << 16U)) {
@@ -396,7 +398,7 @@ TEST_F(Bsdf, samplesAreSoundAtEveryAngle) {
                 for (int c = 0; c < 3; ++c) {
                     ASSERT_TRUE(std::isfinite(s.weight[c]) && s.weight[c] >= 0.0F) << m.name << " " << cosine;
                     // G2 / G1, of which D cancels: at most one but for some ten roundings.
-                    if (coat_alone) {
+                    if (specular_alone) {
                         ASSERT_LE(d(s.weight[c]), 1.0 + 16.0 * kUnit) << m.name << " " << cosine;
                     }
                 }

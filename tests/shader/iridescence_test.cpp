@@ -32,10 +32,11 @@ struct Question {
     std::uint32_t seed = 1;
 };
 struct Answer {
-    vec4 film;   // reflectance over the dielectric base; strength that is left
-    vec4 coat;   // the coat's reflectance; what reaches the base when wo and wi both have this cosine
-    vec4 plain;  // the same without a film
-    vec4 there;  // f, pdf
+    vec4 film;      // reflectance over the dielectric base; strength that is left
+    vec4 specular;  // the specular layer's reflectance; what reaches the diffuse layer when wo and wi both
+                    // have this cosine
+    vec4 plain;     // the same without a film
+    vec4 there;     // f, pdf
     vec4 back;
     vec4 weight;  // w: 1 when valid
 };
@@ -156,9 +157,9 @@ TEST(ThinFilm, reflectsBetweenNothingAndAll) {
             EXPECT_GE(a.film[c], 0.0F);
             EXPECT_LE(a.film[c], 1.0F);
         }
-        // The base receives what the strongest channel leaves.
-        EXPECT_EQ(a.coat.w, 1.0F - std::max({a.film.x, a.film.y, a.film.z}));
-        EXPECT_EQ(vec3(a.coat), vec3(a.film));
+        // The diffuse layer receives what the strongest channel leaves.
+        EXPECT_EQ(a.specular.w, 1.0F - std::max({a.film.x, a.film.y, a.film.z}));
+        EXPECT_EQ(vec3(a.specular), vec3(a.film));
     }
 }
 
@@ -174,7 +175,7 @@ TEST(ThinFilm, withoutStrengthOrThicknessIsPlain) {
     const std::vector<Answer> plain = ask(bare);
     for (std::size_t i = 0; i < answers.size(); ++i) {
         EXPECT_EQ(answers[i].film.w, 0.0F);
-        EXPECT_EQ(answers[i].coat, answers[i].plain);
+        EXPECT_EQ(answers[i].specular, answers[i].plain);
         EXPECT_EQ(answers[i].there, plain[i].there);
         EXPECT_EQ(answers[i].weight, plain[i].weight);
     }
@@ -190,16 +191,17 @@ TEST(ThinFilm, mixesByStrengthAndMetal) {
     const std::vector<Answer> a = ask({half, dielectric, metal});
     for (int c = 0; c < 3; ++c) {
         const double film = 0.75 * d(a[1].film[c]) + 0.25 * d(a[2].film[c]);
-        EXPECT_NEAR(d(a[0].coat[c]), 0.5 * d(a[0].plain[c]) + 0.5 * film, 8.0 * kUnit);
+        EXPECT_NEAR(d(a[0].specular[c]), 0.5 * d(a[0].plain[c]) + 0.5 * film, 8.0 * kUnit);
     }
-    // Only what the dielectric share reflects is kept from the base; without a film, as under any coat.
+    // Only what the dielectric share reflects is kept from the diffuse layer; without a film, as under any
+    // specular layer.
     const double passed = 1.0 - d(std::max({a[1].film.x, a[1].film.y, a[1].film.z}));
     const double cosine = d(half.cosine);
     const double plain = test::reference::passed(
         test::plastic(vec3(0.0F), half.alpha, half.dielectric_f0.x, 1.0F), cosine, cosine);
     // 1 - F rounds by 6 u, twice, and is above 0.9 here; product, mean and quotient follow.
     EXPECT_NEAR(d(a[0].plain.w), plain, 20.0 * kUnit);
-    EXPECT_NEAR(d(a[0].coat.w), 0.5 * d(a[0].plain.w) + 0.5 * passed, 4.0 * kUnit);
+    EXPECT_NEAR(d(a[0].specular.w), 0.5 * d(a[0].plain.w) + 0.5 * passed, 4.0 * kUnit);
 }
 
 TEST(ThinFilm, isReciprocal) {
@@ -267,8 +269,8 @@ double leftOver(const Question& q, double cosine) {
     return 1.0 - std::max({r[0], r[1], r[2]});
 }
 
-/// Albedo of the coat alone, by the midpoint rule over the half vectors.
-std::array<double, 3> coatAlbedo(const Question& q, int steps) {
+/// Albedo of the specular layer alone, by the midpoint rule over the half vectors.
+std::array<double, 3> specularAlbedo(const Question& q, int steps) {
     const test::Material mirror = test::mirror(q.alpha);
     const test::dvec3 wo(test::outgoing(d(q.cosine)));
     std::array<double, 3> sum{};
@@ -288,8 +290,8 @@ std::array<double, 3> coatAlbedo(const Question& q, int steps) {
     return sum;
 }
 
-/// Albedo of a white base: the mean by cosine of the lesser share.
-double baseAlbedo(const Question& q) {
+/// Albedo of a white diffuse layer: the mean by cosine of the lesser share.
+double diffuseAlbedo(const Question& q) {
     constexpr int kSteps = 4096;
     const double towards_wo = leftOver(q, d(q.cosine));
     double sum = 0.0;
@@ -300,10 +302,10 @@ double baseAlbedo(const Question& q) {
     return sum;
 }
 
-// A white base gives at most 1 - R(wo.z) of the light back, R the strongest channel of the film, and a smooth
-// coat R(wo.z). A rough one gives the mean of R over its half vectors, which here is less by its own shadows,
-// so no roughness needs an allowance.
-TEST(ThinFilm, overAWhiteBaseCarriesNoMoreThanArrives) {
+// A white diffuse layer gives at most 1 - R(wo.z) of the light back, R the strongest channel of the film, and
+// a smooth specular layer R(wo.z). A rough one gives the mean of R over its half vectors, which here is less
+// by its own shadows, so no roughness needs an allowance.
+TEST(ThinFilm, overAWhiteDiffuseLayerCarriesNoMoreThanArrives) {
     struct {
         float ior;
         float thickness;
@@ -319,18 +321,18 @@ TEST(ThinFilm, overAWhiteBaseCarriesNoMoreThanArrives) {
             q.thickness = thickness;
             q.alpha = alpha;
             q.cosine = cosine;
-            const std::array<double, 3> coat = coatAlbedo(q, 256);
-            const std::array<double, 3> coarse = coatAlbedo(q, 128);
-            const double base = baseAlbedo(q);
-            EXPECT_LE(base, leftOver(q, d(cosine)));
+            const std::array<double, 3> specular = specularAlbedo(q, 256);
+            const std::array<double, 3> coarse = specularAlbedo(q, 128);
+            const double below = diffuseAlbedo(q);
+            EXPECT_LE(below, leftOver(q, d(cosine)));
             const std::array<RunningStatistics, 3> carried = weights(q, std::size_t{1} << 16U);
             for (std::size_t c = 0; c < 3; ++c) {
                 const double mean = carried.at(c).mean();
                 // The midpoint rule is off by no more than what halving its steps changes.
-                const double tolerance = noise(carried.at(c)) + std::abs(coat.at(c) - coarse.at(c));
+                const double tolerance = noise(carried.at(c)) + std::abs(specular.at(c) - coarse.at(c));
                 EXPECT_LE(mean, 1.0 + noise(carried.at(c)))
                     << ior << " " << thickness << " " << f0 << " " << alpha << " channel " << c;
-                EXPECT_NEAR(mean, coat.at(c) + base, tolerance)
+                EXPECT_NEAR(mean, specular.at(c) + below, tolerance)
                     << ior << " " << thickness << " " << f0 << " " << alpha << " channel " << c;
             }
         }

@@ -1,12 +1,18 @@
-// The isotropic GGX microfacet distribution in the local frame (+Z = normal).
+// Reflection by microfacets of the isotropic GGX distribution, each of reflectance one.
 // Walter et al. 2007, Microfacet Models for Refraction through Rough Surfaces; Heitz 2014, Understanding the Masking-Shadowing Function.
-#ifndef LICHT_PURE_MICROFACET_GLSL
-#define LICHT_PURE_MICROFACET_GLSL
+#ifndef LICHT_PURE_LOBE_GGX_GLSL
+#define LICHT_PURE_LOBE_GGX_GLSL
 
 #include "pure/sampling.glsl"
 
 // Below this the lobe is narrower than fp32 can sample with a meaningful density (D grows as 1 / (pi alpha^2)).
 const float kMinAlpha = 1e-3;
+
+float alphaOf(float roughness) { return max(roughness * roughness, kMinAlpha); }
+
+// Biased: a narrow lobe behind another scattering makes rare bright paths, a wider one blurs what only they would show. The widths are those of pbrt-v4
+// (Pharr, Jakob, Humphreys 2023, Physically Based Rendering, section 14.2.3, path regularization).
+float regularisedAlpha(float alpha) { return alpha < 0.3 ? clamp(2.0 * alpha, 0.1, 0.3) : alpha; }
 
 // Normal distribution, 1/sr. sin^2 comes from the components, not from 1 - cos^2, which cancels for smooth surfaces.
 float ggxD(vec3 h, float alpha) {
@@ -26,6 +32,17 @@ float ggxG1(vec3 w, float alpha) { return 1.0 / (1.0 + ggxLambda(w, alpha)); }
 // Height-correlated masking and shadowing.
 float ggxG2(vec3 wo, vec3 wi, float alpha) { return 1.0 / (1.0 + ggxLambda(wo, alpha) + ggxLambda(wi, alpha)); }
 
+struct GgxValue {
+    float f;    // 1/sr, without the cosine
+    float pdf;  // of wi given wo, solid angle: D_visible / (4 wo.h)
+};
+
+// h: the half vector.
+GgxValue evaluateGgx(float alpha, vec3 wo, vec3 wi, vec3 h) {
+    float d = ggxD(h, alpha);
+    return GgxValue(d * ggxG2(wo, wi, alpha) / (4.0 * wo.z * wi.z), ggxG1(wo, alpha) * d / (4.0 * wo.z));
+}
+
 // A half vector from the distribution of visible normals. Dupuy and Benyoub 2023, Sampling Visible GGX Normals with Spherical Caps.
 vec3 sampleGgxVisibleNormal(vec3 wo, float alpha, vec2 u) {
     vec3 stretched = normalize(vec3(alpha * wo.xy, wo.z));
@@ -38,14 +55,10 @@ vec3 sampleGgxVisibleNormal(vec3 wo, float alpha, vec2 u) {
     return length2 > 0.0 ? h * inversesqrt(length2) : vec3(0.0, 0.0, 1.0);
 }
 
-// Density of the reflected direction, solid angle: D_visible / (4 wo.h).
-float pdfGgxReflection(vec3 wo, vec3 h, float alpha) { return ggxG1(wo, alpha) * ggxD(h, alpha) / (4.0 * wo.z); }
-
-// Schlick 1994, An Inexpensive BRDF Model for Physically-based Rendering.
-vec3 fresnelSchlick(vec3 f0, float f90, float cos_theta) {
-    float m = clamp(1.0 - cos_theta, 0.0, 1.0);
-    float m2 = m * m;
-    return f0 + (f90 - f0) * (m2 * m2 * m);
+// May point below the surface, where nothing is reflected.
+vec3 sampleGgx(float alpha, vec3 wo, vec2 u) {
+    vec3 h = sampleGgxVisibleNormal(wo, alpha, u);
+    return 2.0 * dot(wo, h) * h - wo;
 }
 
 #endif

@@ -1,9 +1,10 @@
-// The Fresnel reflectance of a base under a thin film, in the form of KHR_materials_iridescence. No polarisation.
+// The Fresnel reflectance of what lies under a thin film, in the form of KHR_materials_iridescence. No polarisation.
 // Belcour and Barla 2017, A Practical Extension to Microfacet Theory for the Modeling of Varying Iridescence.
-#ifndef LICHT_PURE_IRIDESCENCE_GLSL
-#define LICHT_PURE_IRIDESCENCE_GLSL
+#ifndef LICHT_PURE_LOBE_THIN_FILM_GLSL
+#define LICHT_PURE_LOBE_THIN_FILM_GLSL
 
-#include "pure/microfacet.glsl"
+#include "pure/lobe/fresnel.glsl"
+#include "pure/sampling.glsl"
 
 struct ThinFilm {
     float strength;   // share of the reflectance that the film rules; 0: no film
@@ -33,18 +34,18 @@ vec3 normalReflectance(vec3 ior_below, float ior_above) {
 }
 
 // What one angle makes of a film, whatever lies under it.
-struct FilmResponse {
-    float r12;       // reflectance from air to film
-    float cos_film;  // inside the film
-    mat2x3 xyz;      // what the eye keeps of the first and second order of interference
+struct ThinFilmResponse {
+    float r12;         // reflectance from air to film
+    float cos_inside;  // the angle inside the film
+    mat2x3 xyz;        // what the eye keeps of the first and second order of interference
 };
 
 // cos_theta: between a direction and the half vector.
-FilmResponse filmResponse(ThinFilm film, float cos_theta) {
+ThinFilmResponse thinFilmResponse(ThinFilm thin_film, float cos_theta) {
     // Snell's law. Coming from air, nothing is reflected totally.
-    float sin2 = (1.0 - cos_theta * cos_theta) / (film.ior * film.ior);
-    float cos_film = sqrt(max(1.0 - sin2, 0.0));
-    float path_difference = 2.0 * film.ior * film.thickness * cos_film;
+    float sin2 = (1.0 - cos_theta * cos_theta) / (thin_film.ior * thin_film.ior);
+    float cos_inside = sqrt(max(1.0 - sin2, 0.0));
+    float path_difference = 2.0 * thin_film.ior * thin_film.thickness * cos_inside;
 
     vec4 turns = fract(path_difference * kTurnsPerNanometre);
     vec4 cosine = vec4(unitCircle(turns.x).x, unitCircle(turns.y).x, unitCircle(turns.z).x, unitCircle(turns.w).x);
@@ -52,16 +53,16 @@ FilmResponse filmResponse(ThinFilm film, float cos_theta) {
     // The second order goes twice as far: cos 2x from cos x, and the square of the distance is four times as large.
     vec4 first = kGaussianWeight * decay * cosine;
     vec4 second = kGaussianWeight * (decay * decay * decay * decay) * (2.0 * cosine * cosine - 1.0);
-    return FilmResponse(fresnelSchlick(normalReflectance(vec3(film.ior), 1.0), 1.0, cos_theta).x, cos_film,
-                        mat2x3(first.x + first.w, first.y, first.z, second.x + second.w, second.y, second.z));
+    return ThinFilmResponse(fresnelSchlick(normalReflectance(vec3(thin_film.ior), 1.0), 1.0, cos_theta).x, cos_inside,
+                            mat2x3(first.x + first.w, first.y, first.z, second.x + second.w, second.y, second.z));
 }
 
-// Reflectance of film and base together, in [0,1]. base_f0: of the base against air.
-vec3 fresnelThinFilm(ThinFilm film, FilmResponse response, vec3 base_f0) {
+// Reflectance of thin film and base together, in [0,1]. base_f0: of the base alone against air.
+vec3 fresnelThinFilm(ThinFilm thin_film, ThinFilmResponse response, vec3 base_f0) {
     const float kLargestF0 = 0.9999;  // a base that reflects all has no finite index
     vec3 root = sqrt(clamp(base_f0, 0.0, kLargestF0));
     vec3 base_ior = (1.0 + root) / (1.0 - root);
-    vec3 r23 = fresnelSchlick(normalReflectance(base_ior, film.ior), 1.0, response.cos_film);
+    vec3 r23 = fresnelSchlick(normalReflectance(base_ior, thin_film.ior), 1.0, response.cos_inside);
 
     // Airy's series: its constant term and the first two orders of interference.
     float t121 = 1.0 - response.r12;
@@ -71,7 +72,7 @@ vec3 fresnelThinFilm(ThinFilm film, FilmResponse response, vec3 base_f0) {
     vec3 amplitude = 2.0 * (within - t121) * root123;
     // Half a turn between what the air's side of the film reflects and what the film keeps, and another where the base is the lighter medium:
     // the first order changes its sign with the base.
-    vec3 turned = mix(vec3(-1.0), vec3(1.0), lessThan(base_ior, vec3(film.ior)));
+    vec3 turned = mix(vec3(-1.0), vec3(1.0), lessThan(base_ior, vec3(thin_film.ior)));
     vec3 reflectance = response.r12 + within + amplitude * (kRec709FromXyz * (turned * response.xyz[0])) +
                        amplitude * root123 * (kRec709FromXyz * response.xyz[1]);
     return clamp(reflectance, 0.0, 1.0);
