@@ -8,7 +8,7 @@
 namespace licht {
 
 GpuScene::GpuScene(gpu::Device& device, const Scene& scene, const Effects& effects, const Options& options)
-    : none_(device, "none", 256, kFetchedUsage, gpu::Memory::device) {
+    : none_(device, "none", 256, kFetchedUsage, gpu::Memory::device), effects_(effects) {
     Uploads uploads(device);
     const InstanceOrder order = orderInstances(scene, effects);
     lights_ = GpuLights(uploads, scene, effects, order,
@@ -49,6 +49,7 @@ void GpuScene::describe(FrameRecord& frame) const {
 
 gpu::SpecConstants GpuScene::constants() const {
     gpu::SpecConstants constants{{kConstantSceneInStorage, records_.inStorage() ? 1U : 0U}};
+    effects_.addTo(constants);
     levels_.addTo(constants);
     materials_.addTo(constants);
     textures_.addTo(constants);

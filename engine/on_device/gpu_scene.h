@@ -39,7 +39,7 @@ public:
     [[nodiscard]] std::vector<gpu::BoundResource> resources() const;
     /// What the scene says to every frame: counts, sizes, seeds are the caller's.
     void describe(FrameRecord& frame) const;
-    /// Constants beside the effects: how the BVH is fetched, how deep its stack is, where instances begin.
+    /// The effects, and what else is compiled in: how the BVH is fetched, where instances begin, and so on.
     [[nodiscard]] gpu::SpecConstants constants() const;
 
     /// One per baked instance, one per group of instances of a mesh.
@@ -52,6 +52,7 @@ public:
 
 private:
     gpu::Buffer none_;
+    Effects effects_;
     GpuLights lights_;
     GpuGeometry geometry_;
     GpuLevels levels_;

@@ -26,9 +26,8 @@ constexpr std::array<const char*, kRayLists> kListNames{"PrimaryRays",      "Fir
                                                         "FirstBounceRays",  "SecondShadowRays",
                                                         "SecondBounceRays", "GlossyRays"};
 
-gpu::SpecConstants constantsOf(const GpuScene& scene, const Effects& effects) {
+gpu::SpecConstants constantsOf(const GpuScene& scene) {
     gpu::SpecConstants constants = scene.constants();
-    for (uint effect = 0; effect < kEffectCount; ++effect) constants[effect] = effects.has(effect) ? 1U : 0U;
     constants[kEffectGlossy] = 0;  // diffuse bounces
     constants[kEffectIridescence] = 0;
     constants[kConstantDirect] = kDirectMis;
@@ -57,8 +56,8 @@ void append(std::vector<RayRecord>& rays, gpu::Device& device, const gpu::Buffer
 
 }  // namespace
 
-std::vector<RayList> recordRays(gpu::Device& device, const GpuScene& scene, const Effects& effects,
-                                const Camera& camera, uvec2 size) {
+std::vector<RayList> recordRays(gpu::Device& device, const GpuScene& scene, const Camera& camera,
+                                uvec2 size) {
     const std::uint64_t tiles = std::uint64_t{(size.x + kTile - 1) / kTile} * ((size.y + kTile - 1) / kTile);
     const std::uint64_t list_bytes = tiles * kTile * kTile * sizeof(RayRecord);
     // The longest list, shadow, is two of these, and is read as texels.
@@ -71,7 +70,7 @@ std::vector<RayList> recordRays(gpu::Device& device, const GpuScene& scene, cons
             fmt::format("{}x{} pixels are too many rays for this device's buffers: at most {} pixels", size.x,
                         size.y, limit / sizeof(RayRecord)));
 
-    const gpu::SpecConstants constants = constantsOf(scene, effects);
+    const gpu::SpecConstants constants = constantsOf(scene);
     const gpu::Program gbuffer = gbufferProgram(device, constants);
     const gpu::Program record = gpu::Program::compute(device, "record_rays", record_rays_comp, constants);
     const History history(device, size, false);

@@ -5,7 +5,6 @@
 
 #include "licht/gpu/device.h"
 #include "licht/on_device/gpu_scene.h"
-#include "licht/scene/effects.h"
 #include "licht/scene/scene.h"
 #include "licht/shared/ray_records.h"
 
@@ -25,7 +24,6 @@ struct RayList {
 /// rasteriser stands for. glossy: leaving the first vertex by a GGX lobe of kRecordedRoughness. A path that
 /// has no such ray leaves no gap. Throws InputError for a picture whose lists are larger than the device's
 /// buffers.
-std::vector<RayList> recordRays(gpu::Device& device, const GpuScene& scene, const Effects& effects,
-                                const Camera& camera, uvec2 size);
+std::vector<RayList> recordRays(gpu::Device& device, const GpuScene& scene, const Camera& camera, uvec2 size);
 
 }  // namespace licht

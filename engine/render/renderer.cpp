@@ -67,10 +67,9 @@ std::uint32_t pathsPerThread(const gpu::Device& device, const RenderSettings& se
     return std::clamp(kRounds / kRoundsPerVertex / vertices, 1U, kMostPaths);
 }
 
-gpu::SpecConstants constantsOf(const Effects& effects, const GpuScene& scene, const RenderSettings& settings,
+gpu::SpecConstants constantsOf(const GpuScene& scene, const RenderSettings& settings,
                                std::uint32_t paths_per_thread) {
     gpu::SpecConstants constants = scene.constants();
-    for (uint effect = 0; effect < kEffectCount; ++effect) constants[effect] = effects.has(effect) ? 1U : 0U;
     constants[kConstantDirect] = static_cast<uint>(settings.direct);
     constants[kConstantMisBalance] = settings.mis == MisHeuristic::balance ? 1U : 0U;
     constants[kConstantSampler] = static_cast<uint>(settings.sampler);
@@ -120,8 +119,7 @@ struct Renderer::State {
         statistics.geometry_bytes = gpu_scene.geometryBytes();
         statistics.upload_seconds = secondsSince(upload_start) - statistics.bvh_seconds;
         const Clock::time_point start = Clock::now();
-        programs.emplace(device, constantsOf(effects, gpu_scene, settings, paths_per_thread),
-                         settings.aovs.any());
+        programs.emplace(device, constantsOf(gpu_scene, settings, paths_per_thread), settings.aovs.any());
         resize(settings.size);
         runEveryProgramOnce();
         statistics.pipeline_seconds = secondsSince(start);
@@ -214,8 +212,8 @@ void Renderer::State::resize(uvec2 size) {
     tonemap_bindings = gpu::Bindings(device, programs->tonemap, resources);
     if (settings.aovs.any()) layer_bindings = gpu::Bindings(device, programs->layers, resources);
     if (settings.queues) {
-        queues.emplace(device, constantsOf(effects, gpu_scene, settings, paths_per_thread), size,
-                       settings.bounces, settings.rays_per_thread);
+        queues.emplace(device, constantsOf(gpu_scene, settings, paths_per_thread), size, settings.bounces,
+                       settings.rays_per_thread);
         const std::array counters{static_cast<const gpu::Buffer*>(&slots[0].counters),
                                   static_cast<const gpu::Buffer*>(&slots[1].counters)};
         queues->bind(device, resources, counters);

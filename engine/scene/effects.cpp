@@ -13,43 +13,6 @@
 
 namespace licht {
 
-const std::array<EffectInfo, kEffectCount>& effectTable() {
-    static constexpr std::array<EffectInfo, kEffectCount> kTable{{
-        {kEffectTextures, "textures", "materials read textures", "texels,textures", "gbuffer,path"},
-        {kEffectNormalMaps, "normalMaps", "normal maps bend the shading frame", "tangents", "path"},
-        {kEffectVertexColors, "vertexColors", "vertices carry colours", "colors", "gbuffer,path"},
-        {kEffectExtraUvSets, "extraUvSets", "textures read more than the first set of coordinates",
-         "extra_uvs", "gbuffer,path"},
-        {kEffectAlpha, "alpha", "surfaces with holes or partial coverage", "", "gbuffer,path"},
-        {kEffectGlossy, "glossy", "microfacet reflection", "", "path"},
-        {kEffectEmission, "emission", "surfaces that emit light", "", "path"},
-        {kEffectLightTriangles, "lightTriangles", "emissive triangles are sampled as lights",
-         "lights,light_alias", "path"},
-        {kEffectPunctualLights, "punctualLights", "point, spot and directional lights", "lights,light_alias",
-         "path"},
-        {kEffectEnvironment, "environment", "light from infinitely far", "environment_map,environment_table",
-         "path"},
-        {kEffectUnlit, "unlit", "surfaces that show their colour without light", "", "path"},
-        {kEffectIridescence, "iridescence", "thin films colour what reflects", "", "path"},
-        {kEffectInstances, "instances", "meshes are stored once and placed often", "instance_transforms",
-         "gbuffer,path"},
-        {kEffectLightSpheres, "lightSpheres", "round meshes that shine are sampled as one light each", "",
-         "path"},
-        {kEffectSuns, "suns", "directional lights that are seen as discs", "lights", "path"},
-    }};
-    return kTable;
-}
-
-std::vector<std::string> Effects::names() const {
-    std::vector<std::string> result;
-    for (const EffectInfo& info : effectTable()) {
-        if (has(info.id)) {
-            result.emplace_back(info.name);
-        }
-    }
-    return result;
-}
-
 namespace {
 
 bool anyPositive(const vec3& v) {
@@ -155,150 +118,217 @@ double area(const Scene& scene, const Instance& instance) {
     return sum;
 }
 
-class Detector {
-public:
-    explicit Detector(const Scene& scene) : scene_(scene) {}
+}  // namespace
 
-    Effects run() {
-        std::set<std::uint32_t> used_meshes;
-        for (const Instance& instance : scene_.instances) {
-            if (used_meshes.insert(instance.mesh).second) {
-                lookAt(scene_.meshes[instance.mesh]);
-            }
-        }
-        lookAtLights();
-        lookAtEmittingArea();
-        if (const Instancing instancing = chooseInstanced(scene_); instancing.count > 0) {
-            call(kEffectInstances,
-                 fmt::format("mesh '{}' is used {} times", scene_.meshes[instancing.most_used].name,
-                             instancing.most_uses));
-        }
-        return std::move(effects_);
-    }
+/// What evidence is looked for in.
+struct LookedAt {
+    const Scene& scene;
+    std::vector<const Mesh*> meshes;  ///< with triangles and in use, each once
+    const Effects& above;             ///< rows before this one are decided
+};
 
-private:
-    void call(uint effect, std::string evidence) {
-        if (!effects_.on.at(effect)) {
-            effects_.on.at(effect) = true;
-            effects_.evidence.at(effect) = std::move(evidence);
-        }
-    }
+namespace {
 
-    void lookAt(const Mesh& mesh) {
-        if (mesh.triangles.empty()) {
-            return;
-        }
-        const Material& m = scene_.materials[mesh.material];
+const Material& materialOf(const LookedAt& at, const Mesh& mesh) {
+    return at.scene.materials[mesh.material];
+}
+
+/// What `say` says of the first mesh of which it says anything.
+template <typename Say>
+std::string ofFirstMesh(const LookedAt& at, const Say& say) {
+    for (const Mesh* mesh : at.meshes)
+        if (std::string said = say(*mesh, materialOf(at, *mesh)); !said.empty()) return said;
+    return {};
+}
+
+/// The same, of materials that fit.
+template <typename Fits>
+std::string ofFirstMaterial(const LookedAt& at, const Fits& fits, std::string_view says) {
+    return ofFirstMesh(at, [&](const Mesh&, const Material& m) {
+        return fits(m) ? fmt::format("material '{}' {}", m.name, says) : std::string();
+    });
+}
+
+/// What `say` says of the first slot that reads a texture and can change a picture.
+template <typename Say>
+std::string ofFirstSlot(const LookedAt& at, const Say& say) {
+    return ofFirstMesh(at, [&](const Mesh& mesh, const Material& m) {
         for (const SlotInfo& info : kSlotTable) {
             const TextureSlot& slot = m.slots[info.kind];
-            if (!slot.present() || !kInfluence[info.kind](m, mesh)) {
-                continue;
-            }
-            call(kEffectTextures, fmt::format("material '{}' has a {} texture", m.name, info.name));
-            if (slot.uv_set > 0) {
-                call(kEffectExtraUvSets, fmt::format("material '{}' reads its {} texture by TEXCOORD_{}",
-                                                     m.name, info.name, slot.uv_set));
-            }
+            if (!slot.present() || !kInfluence[info.kind](m, mesh)) continue;
+            if (std::string said = say(m, info, slot); !said.empty()) return said;
         }
-        if (bendsNormals(m)) {
-            call(kEffectNormalMaps, fmt::format("material '{}' has a normal map", m.name));
-        }
-        if (hasColors(mesh)) {
-            call(kEffectVertexColors, fmt::format("mesh '{}' has vertex colours", mesh.name));
-        }
-        if (alphaMatters(m, mesh)) {
-            call(kEffectAlpha, fmt::format("material '{}' has alpha mode {}", m.name,
-                                           m.alpha_mode == AlphaMode::mask ? "MASK" : "BLEND"));
-        }
-        if (glossy(m)) {
-            call(kEffectGlossy, m.metallic > 0.0F
-                                    ? fmt::format("material '{}' is metallic", m.name)
-                                    : fmt::format("material '{}' reflects at its surface", m.name));
-        }
-        if (emits(m)) {
-            call(kEffectEmission, fmt::format("material '{}' emits", m.name));
-        }
-        if (iridescent(m)) {
-            call(kEffectIridescence, fmt::format("material '{}' is iridescent", m.name));
-        }
-        if (m.unlit) {
-            call(kEffectUnlit, fmt::format("material '{}' is unlit", m.name));
-        }
-    }
+        return std::string();
+    });
+}
 
-    void lookAtLights() {
-        for (const PunctualLight& light : scene_.lights) {
-            if (anyPositive(light.intensity)) {
-                call(kEffectPunctualLights, fmt::format("light '{}' shines", light.name));
-                if (fillsAngle(light)) {
-                    call(kEffectSuns, fmt::format("light '{}' fills {:.3g} degrees", light.name,
-                                                  glm::degrees(light.angular_diameter)));
-                }
-            }
-        }
-        if (scene_.environment) {
-            const auto& texels = scene_.environment->radiance.texels;
-            if (std::any_of(texels.begin(), texels.end(), [](float x) { return x > 0.0F; })) {
-                call(kEffectEnvironment,
-                     fmt::format("environment '{}' is not black", scene_.environment->name));
-            }
-        }
-    }
+std::string texturesOf(const LookedAt& at) {
+    return ofFirstSlot(at, [](const Material& m, const SlotInfo& info, const TextureSlot&) {
+        return fmt::format("material '{}' has a {} texture", m.name, info.name);
+    });
+}
 
-    /// Where most of the surface shines, scattered rays find the light by themselves and without noise (a
-    /// closed furnace has none at all); sampling its triangles too would only add noise. So they are sampled
-    /// while they are less than half of the area, where a textured surface counts by its lit share.
-    void lookAtEmittingArea() {
-        if (!effects_.has(kEffectEmission)) {
-            return;
-        }
-        double all = 0.0;
-        double emitting = 0.0;
-        std::string first;
-        for (const Instance& instance : scene_.instances) {
-            const Mesh& mesh = scene_.meshes[instance.mesh];
-            const double a = area(scene_, instance);
-            all += a;
-            if (const Material& m = scene_.materials[mesh.material];
-                emits(m) && a > 0.0 && litShare(m) > 0.0) {
-                emitting += a * litShare(m);
-                first = first.empty() ? mesh.name : first;
-            }
-        }
-        if (emitting > 0.0 && emitting < 0.5 * all) {
-            call(kEffectLightTriangles, fmt::format("mesh '{}' emits, and {:.3g} % of all surface does",
-                                                    first, 100.0 * emitting / all));
-            lookForRoundEmitters();
-        }
-    }
+std::string extraUvSetsOf(const LookedAt& at) {
+    return ofFirstSlot(at, [](const Material& m, const SlotInfo& info, const TextureSlot& slot) {
+        return slot.uv_set > 0 ? fmt::format("material '{}' reads its {} texture by TEXCOORD_{}", m.name,
+                                             info.name, slot.uv_set)
+                               : std::string();
+    });
+}
 
-    void lookForRoundEmitters() {
-        for (const Instance& instance : scene_.instances) {
-            if (roundEmitter(scene_, instance)) {
-                call(kEffectLightSpheres, fmt::format("mesh '{}' shines and is nearly a sphere",
-                                                      scene_.meshes[instance.mesh].name));
-                return;
-            }
-        }
-    }
+std::string vertexColorsOf(const LookedAt& at) {
+    return ofFirstMesh(at, [](const Mesh& mesh, const Material&) {
+        return hasColors(mesh) ? fmt::format("mesh '{}' has vertex colours", mesh.name) : std::string();
+    });
+}
 
-    double litShare(const Material& m) {
-        const auto [known, added] = lit_shares_.try_emplace(&m, 0.0);
-        if (added) {
-            known->second = licht::litShare(scene_, m);
-        }
-        return known->second;
-    }
+std::string alphaOf(const LookedAt& at) {
+    return ofFirstMesh(at, [](const Mesh& mesh, const Material& m) {
+        return alphaMatters(m, mesh) ? fmt::format("material '{}' has alpha mode {}", m.name,
+                                                   m.alpha_mode == AlphaMode::mask ? "MASK" : "BLEND")
+                                     : std::string();
+    });
+}
 
-    const Scene& scene_;
-    Effects effects_;
-    std::map<const Material*, double> lit_shares_;
-};
+std::string glossOf(const LookedAt& at) {
+    return ofFirstMesh(at, [](const Mesh&, const Material& m) {
+        if (!glossy(m)) return std::string();
+        return fmt::format("material '{}' {}", m.name,
+                           m.metallic > 0.0F ? "is metallic" : "reflects at its surface");
+    });
+}
+
+/// Where most of the surface shines, scattered rays find the light by themselves and without noise (a closed
+/// furnace has none at all); sampling its triangles too would only add noise. So they are sampled while they
+/// are less than half of the area, where a textured surface counts by its lit share.
+std::string lightTrianglesOf(const LookedAt& at) {
+    if (!at.above.has(kEffectEmission)) return {};
+    std::map<const Material*, double> lit_shares;
+    double all = 0.0;
+    double emitting = 0.0;
+    std::string first;
+    for (const Instance& instance : at.scene.instances) {
+        const Mesh& mesh = at.scene.meshes[instance.mesh];
+        const Material& m = materialOf(at, mesh);
+        const double a = area(at.scene, instance);
+        all += a;
+        if (!emits(m) || a <= 0.0) continue;
+        const auto [share, added] = lit_shares.try_emplace(&m, 0.0);
+        if (added) share->second = litShare(at.scene, m);
+        if (share->second <= 0.0) continue;
+        emitting += a * share->second;
+        first = first.empty() ? mesh.name : first;
+    }
+    if (emitting <= 0.0 || emitting >= 0.5 * all) return {};
+    return fmt::format("mesh '{}' emits, and {:.3g} % of all surface does", first, 100.0 * emitting / all);
+}
+
+std::string lightSpheresOf(const LookedAt& at) {
+    if (!at.above.has(kEffectLightTriangles)) return {};
+    for (const Instance& instance : at.scene.instances)
+        if (roundEmitter(at.scene, instance))
+            return fmt::format("mesh '{}' shines and is nearly a sphere",
+                               at.scene.meshes[instance.mesh].name);
+    return {};
+}
+
+std::string punctualLightsOf(const LookedAt& at) {
+    for (const PunctualLight& light : at.scene.lights)
+        if (anyPositive(light.intensity)) return fmt::format("light '{}' shines", light.name);
+    return {};
+}
+
+std::string sunsOf(const LookedAt& at) {
+    for (const PunctualLight& light : at.scene.lights)
+        if (anyPositive(light.intensity) && fillsAngle(light))
+            return fmt::format("light '{}' fills {:.3g} degrees", light.name,
+                               glm::degrees(light.angular_diameter));
+    return {};
+}
+
+std::string environmentOf(const LookedAt& at) {
+    if (!at.scene.environment) return {};
+    const auto& texels = at.scene.environment->radiance.texels;
+    return std::any_of(texels.begin(), texels.end(), [](float x) { return x > 0.0F; })
+               ? fmt::format("environment '{}' is not black", at.scene.environment->name)
+               : std::string();
+}
+
+std::string instancesOf(const LookedAt& at) {
+    const Instancing instancing = chooseInstanced(at.scene);
+    return instancing.count > 0
+               ? fmt::format("mesh '{}' is used {} times", at.scene.meshes[instancing.most_used].name,
+                             instancing.most_uses)
+               : std::string();
+}
+
+constexpr std::array<EffectInfo, kEffectCount> kEffectTable{{
+    {kEffectTextures, "textures", "materials read textures", texturesOf},
+    {kEffectNormalMaps, "normalMaps", "normal maps bend the shading frame",
+     [](const LookedAt& at) { return ofFirstMaterial(at, bendsNormals, "has a normal map"); }},
+    {kEffectVertexColors, "vertexColors", "vertices carry colours", vertexColorsOf},
+    {kEffectExtraUvSets, "extraUvSets", "textures read more than the first set of coordinates",
+     extraUvSetsOf},
+    {kEffectAlpha, "alpha", "surfaces with holes or partial coverage", alphaOf},
+    {kEffectGlossy, "glossy", "microfacet reflection", glossOf},
+    {kEffectEmission, "emission", "surfaces that emit light",
+     [](const LookedAt& at) { return ofFirstMaterial(at, emits, "emits"); }},
+    {kEffectLightTriangles, "lightTriangles", "emissive triangles are sampled as lights", lightTrianglesOf},
+    {kEffectPunctualLights, "punctualLights", "point, spot and directional lights", punctualLightsOf},
+    {kEffectEnvironment, "environment", "light from infinitely far", environmentOf},
+    {kEffectUnlit, "unlit", "surfaces that show their colour without light",
+     [](const LookedAt& at) {
+         return ofFirstMaterial(
+             at, [](const Material& m) { return m.unlit; }, "is unlit");
+     }},
+    {kEffectIridescence, "iridescence", "thin films colour what reflects",
+     [](const LookedAt& at) { return ofFirstMaterial(at, iridescent, "is iridescent"); }},
+    {kEffectInstances, "instances", "meshes are stored once and placed often", instancesOf},
+    {kEffectLightSpheres, "lightSpheres", "round meshes that shine are sampled as one light each",
+     lightSpheresOf},
+    {kEffectSuns, "suns", "directional lights that are seen as discs", sunsOf},
+}};
+
+/// Whether row i is about the effect i.
+constexpr bool effectsAreInOrder() {
+    for (uint id = 0; id < kEffectCount; ++id)
+        if (kEffectTable[id].id != id) return false;
+    return true;
+}
+static_assert(effectsAreInOrder());
 
 }  // namespace
 
+const std::array<EffectInfo, kEffectCount>& effectTable() {
+    return kEffectTable;
+}
+
+std::vector<std::string> Effects::names() const {
+    std::vector<std::string> result;
+    for (const EffectInfo& info : effectTable()) {
+        if (has(info.id)) {
+            result.emplace_back(info.name);
+        }
+    }
+    return result;
+}
+
+void Effects::addTo(std::map<std::uint32_t, std::uint32_t>& constants) const {
+    for (uint effect = 0; effect < kEffectCount; ++effect) constants[effect] = has(effect) ? 1U : 0U;
+}
+
 Effects detectEffects(const Scene& scene) {
-    return Detector(scene).run();
+    Effects effects;
+    LookedAt at{scene, {}, effects};
+    std::set<std::uint32_t> seen;
+    for (const Instance& instance : scene.instances)
+        if (seen.insert(instance.mesh).second && !scene.meshes[instance.mesh].triangles.empty())
+            at.meshes.push_back(&scene.meshes[instance.mesh]);
+    for (const EffectInfo& info : kEffectTable) {
+        effects.evidence[info.id] = info.evidence(at);
+        effects.on[info.id] = !effects.evidence[info.id].empty();
+    }
+    return effects;
 }
 
 Effects allEffects() {

@@ -1,8 +1,9 @@
 #pragma once
 // The one table that decides what is simulated: each effect has the evidence in the scene that calls for it,
-// and everything else (specialisation constants, buffers, passes) follows from the set. Nothing is compiled,
-// allocated or computed for an effect that is not called for.
+// and what is compiled follows from the set.
 #include <array>
+#include <cstdint>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,13 +13,14 @@
 
 namespace licht {
 
-/// What an effect is, and what it costs when it is called for.
+struct LookedAt;
+
+/// What an effect is, and what calls for it.
 struct EffectInfo {
     uint id;                ///< kEffect... of licht/shared/effects.h, also the specialisation constant's id
     std::string_view name;  ///< "textures"
-    std::string_view meaning;  ///< one line
-    std::string_view buffers;  ///< names of the GPU buffers that exist only for it
-    std::string_view passes;   ///< passes whose programs carry its code
+    std::string_view meaning;                  ///< one line
+    std::string (*evidence)(const LookedAt&);  ///< the first object that calls for it; empty: none does
 };
 
 const std::array<EffectInfo, kEffectCount>& effectTable();
@@ -31,6 +33,8 @@ struct Effects {
 
     [[nodiscard]] bool has(uint effect) const { return on[effect]; }
     [[nodiscard]] std::vector<std::string> names() const;
+    /// As specialisation constants, id by id.
+    void addTo(std::map<std::uint32_t, std::uint32_t>& constants) const;
 };
 
 Effects detectEffects(const Scene& scene);

@@ -3,30 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "licht/core/error.h"
 #include "licht/core/file.h"
 #include "licht/scene/gltf_container.h"
+#include "licht/scene/gltf_extensions.h"
 #include "licht/scene/gltf_meshopt.h"
 
 namespace licht::gltf {
 namespace {
 
 using Json = nlohmann::json;
-
-constexpr std::array<std::string_view, 10> kSupported{
-    "KHR_lights_punctual",     "KHR_materials_emissive_strength",
-    "KHR_materials_unlit",     "KHR_materials_specular",
-    "KHR_materials_ior",       "KHR_texture_transform",
-    "KHR_mesh_quantization",   "KHR_materials_iridescence",
-    "EXT_meshopt_compression", "EXT_mesh_gpu_instancing"};
-
-bool supported(std::string_view extension) {
-    return std::find(kSupported.begin(), kSupported.end(), extension) != kSupported.end();
-}
 
 /// JSON nested deeper than this would end in recursion somewhere; glTF itself needs about ten levels.
 constexpr int kMaxJsonDepth = 200;
@@ -94,13 +83,13 @@ void checkVersion(const Json& document, const std::string& file) {
 
 void checkExtensions(const Json& document, Asset& asset) {
     for (const Json& name : arrayOf(document, "extensionsRequired")) {
-        if (name.is_string() && !supported(name.get_ref<const std::string&>())) {
+        if (name.is_string() && !knowsGltfExtension(name.get_ref<const std::string&>())) {
             throw InputError(fmt::format("{}: required extension '{}' is not supported", asset.file,
                                          oneLine(name.get_ref<const std::string&>())));
         }
     }
     for (const Json& name : arrayOf(document, "extensionsUsed")) {
-        if (name.is_string() && !supported(name.get_ref<const std::string&>())) {
+        if (name.is_string() && !knowsGltfExtension(name.get_ref<const std::string&>())) {
             asset.warn(fmt::format("extension '{}' is not supported and ignored",
                                    oneLine(name.get_ref<const std::string&>())));
         }

@@ -64,7 +64,7 @@ void describeBuild(BenchReport& report, const Bvh& bvh) {
 std::vector<RayList> raysOf(gpu::Device& device, const Scene& scene, const Shot& shot) {
     const Effects effects = detectEffects(scene);
     const GpuScene on_device(device, scene, effects, {});
-    return recordRays(device, on_device, effects, shot.camera, shot.size);
+    return recordRays(device, on_device, shot.camera, shot.size);
 }
 
 }  // namespace

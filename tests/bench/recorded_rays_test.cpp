@@ -35,7 +35,7 @@ struct Recorded {
             GpuBvh(gpu::testDevice(), bvh.nodes, triangleTexels(bvh, triangles), bvh.max_stack, false);
         const Effects effects = detectEffects(scene);
         const GpuScene drawn(gpu::testDevice(), scene, effects, {});
-        lists = recordRays(gpu::testDevice(), drawn, effects, scene.cameras.at(0), kSize);
+        lists = recordRays(gpu::testDevice(), drawn, scene.cameras.at(0), kSize);
     }
     [[nodiscard]] const std::vector<RayRecord>& rays(std::string_view kind) const {
         return std::find_if(lists.begin(), lists.end(),
@@ -140,8 +140,7 @@ TEST(RecordedRaysLimit, APictureWithTooManyRaysIsRefused) {
     const Scene scene = makeBuiltinScene("terrain", 2'000).value();
     const Effects effects = detectEffects(scene);
     const GpuScene on_device(gpu::testDevice(), scene, effects, {});
-    EXPECT_THROW(recordRays(gpu::testDevice(), on_device, effects, scene.cameras.at(0), {16384, 8192}),
-                 InputError);
+    EXPECT_THROW(recordRays(gpu::testDevice(), on_device, scene.cameras.at(0), {16384, 8192}), InputError);
 }
 
 }  // namespace

@@ -56,7 +56,8 @@ public:
         : scene_(sceneOf(triangles)),
           effects_(detectEffects(scene_)),
           gpu_scene_(gpu::testDevice(), scene_, effects_, {}),
-          program_(gpu::Program::compute(gpu::testDevice(), "leave", self_intersection_comp, constants())) {
+          program_(gpu::Program::compute(gpu::testDevice(), "leave", self_intersection_comp,
+                                         gpu_scene_.constants())) {
         FrameRecord frame{};
         gpu_scene_.describe(frame);
         frame_ = gpu::uploadBuffer(gpu::testDevice(), "frame", std::span<const FrameRecord>(&frame, 1),
@@ -88,14 +89,6 @@ public:
     }
 
 private:
-    [[nodiscard]] gpu::SpecConstants constants() const {
-        gpu::SpecConstants all = gpu_scene_.constants();
-        for (uint e = 0; e < kEffectCount; ++e) {
-            all[e] = effects_.has(e) ? 1U : 0U;
-        }
-        return all;
-    }
-
     Scene scene_;
     Effects effects_;
     GpuScene gpu_scene_;

@@ -112,7 +112,6 @@ std::vector<Answer> ask(const Scene& scene, const std::vector<Place>& places, st
                              gpu::Memory::host_write);
     std::memcpy(frame_buffer.mapped(), &frame, sizeof(frame));
     gpu::SpecConstants constants = gpu_scene.constants();
-    for (uint e = 0; e < kEffectCount; ++e) constants[e] = effects.has(e) ? 1U : 0U;
     constants[kConstantSampler] = kSamplerRandom;
     test::Kernel kernel("sphere light", sphere_light_comp, constants);
     std::vector<gpu::BoundResource> resources = gpu_scene.resources();

@@ -22,7 +22,6 @@ std::vector<std::byte> lookAtFirstHits(const Scene& scene, uvec2 size, const std
     const GpuScene gpu_scene(device, scene, effects, {});
     History history(device, size, false);
     gpu::SpecConstants constants = gpu_scene.constants();
-    for (uint e = 0; e < kEffectCount; ++e) constants[e] = effects.has(e) ? 1U : 0U;
     const gpu::Program gbuffer = gbufferProgram(device, constants);
     const gpu::Program program = gpu::Program::compute(device, name, kernel, constants);
 
