@@ -1,0 +1,40 @@
+// What holds of every lobe (lobe_test.h), of each and of their layers.
+#include "licht/spirv/lobes_comp.h"
+#include "lobe_test.h"
+
+namespace licht {
+namespace {
+
+struct Parameters {
+    vec3 diffuse{0.0F};
+    float alpha = 0.3F;
+    vec3 f0{0.0F};
+    float f90 = 0.0F;
+    float thickness = 0.0F;
+    std::uint32_t lobe = 2;
+};
+
+TEST(Lobes, AreReciprocalSampledByTheirDensityAndGainNothing) {
+    const std::pair<const char*, Parameters> lobes[]{
+        {"diffuse", {.diffuse = vec3(0.9F, 0.5F, 0.1F), .lobe = 0}},
+        {"narrow specular", {.alpha = 0.25F, .f0 = vec3(1.0F), .f90 = 1.0F, .lobe = 1}},
+        {"wide specular", {.alpha = 1.0F, .f0 = vec3(0.9F, 0.5F, 0.2F), .f90 = 1.0F, .lobe = 1}},
+        {"specular over diffuse", {.diffuse = vec3(1.0F), .f0 = vec3(0.04F), .f90 = 1.0F}},
+        {"thin film over diffuse",
+         {.diffuse = vec3(1.0F), .f0 = vec3(0.04F), .f90 = 1.0F, .thickness = 300.0F}},
+    };
+    test::Kernel kernel("lobes", lobes_comp);
+    // The most that a rough specular layer gains over a white one, see bsdf_test.cpp.
+    constexpr double kMostGain = 0.0026;
+    for (const auto& [name, parameters] : lobes) {
+        const test::Lobe lobe(kernel, name, parameters);
+        if (parameters.thickness == 0.0F) lobe.expectReciprocal();
+        for (const double cosine : {1.0, 0.5, 0.2}) {
+            lobe.expectSamplesFollowDensity(test::towards(cosine), static_cast<int>(std::size(lobes) * 3));
+            lobe.expectNoGain(test::towards(cosine), kMostGain);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace licht
