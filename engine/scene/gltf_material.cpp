@@ -6,18 +6,20 @@
 #include <array>
 #include <cmath>
 
+#include "licht/scene/material_numbers.h"
 #include "licht/scene/slot_table.h"
 
 namespace licht::gltf {
 namespace {
 
-constexpr double kUnlimited = static_cast<double>(std::numeric_limits<float>::max());
+constexpr auto kMost = static_cast<double>(kUnlimited);
 
-/// No thin film is thicker (a millimetre, in nm), nor of a higher index: the square of their product is a
-/// float.
-constexpr double kMaxFilm = 1e6;
-
+/// key: "x.y" is the member y of the object x.
 double number(const tinygltf::Value& object, const std::string& key, double fallback) {
+    if (const std::size_t dot = key.find('.'); dot != std::string::npos) {
+        const std::string outer = key.substr(0, dot);
+        return object.Has(outer) ? number(object.Get(outer), key.substr(dot + 1), fallback) : fallback;
+    }
     return object.Has(key) && object.Get(key).IsNumber() ? object.Get(key).GetNumberAsDouble() : fallback;
 }
 
@@ -91,14 +93,13 @@ Material MaterialLoader::convert(const tinygltf::Material& source, const std::st
             clamped(pbr.baseColorFactor.at(static_cast<std::size_t>(i)), 0, 1, object, "baseColorFactor");
     }
     for (int i = 0; i < 3; ++i) {
-        material.emission[i] = clamped(source.emissiveFactor.at(static_cast<std::size_t>(i)), 0, kUnlimited,
+        material.emission[i] = clamped(source.emissiveFactor.at(static_cast<std::size_t>(i)), 0, kMost,
                                        object, "emissiveFactor");
     }
     material.metallic = clamped(pbr.metallicFactor, 0, 1, object, "metallicFactor");
     material.roughness = clamped(pbr.roughnessFactor, 0, 1, object, "roughnessFactor");
-    material.normal_scale =
-        clamped(source.normalTexture.scale, -kUnlimited, kUnlimited, object, "normalTexture.scale");
-    material.alpha_cutoff = clamped(source.alphaCutoff, 0, kUnlimited, object, "alphaCutoff");
+    material.normal_scale = clamped(source.normalTexture.scale, -kMost, kMost, object, "normalTexture.scale");
+    material.alpha_cutoff = clamped(source.alphaCutoff, 0, kMost, object, "alphaCutoff");
     material.double_sided = source.doubleSided;
     if (source.alphaMode == "MASK") {
         material.alpha_mode = AlphaMode::mask;
@@ -126,32 +127,29 @@ Material MaterialLoader::convert(const tinygltf::Material& source, const std::st
 
 void MaterialLoader::readExtensions(const tinygltf::Material& source, const std::string& object,
                                     Material& material) {
+    for (const MaterialNumber& row : kMaterialNumbers) {
+        if (const auto* extension = find(source.extensions, std::string(row.extension))) {
+            float& value = row.of(material);
+            value = clamped(number(*extension, std::string(row.key), static_cast<double>(value)),
+                            static_cast<double>(row.least), static_cast<double>(row.most), object, row.key);
+        }
+    }
     material.unlit = find(source.extensions, "KHR_materials_unlit") != nullptr;
     if (const auto* strength = find(source.extensions, "KHR_materials_emissive_strength")) {
         material.emission *=
-            clamped(number(*strength, "emissiveStrength", 1.0), 0, kUnlimited, object, "emissiveStrength");
+            clamped(number(*strength, "emissiveStrength", 1.0), 0, kMost, object, "emissiveStrength");
         material.emission = glm::min(material.emission, vec3(std::numeric_limits<float>::max()));
     }
     if (const auto* ior = find(source.extensions, "KHR_materials_ior")) {
         const double value = number(*ior, "ior", 1.5);
-        material.ior = value == 0.0 ? 0.0F : clamped(value, 1, kUnlimited, object, "ior");
+        material.ior = value == 0.0 ? 0.0F : clamped(value, 1, kMost, object, "ior");
     }
     if (const auto* specular = find(source.extensions, "KHR_materials_specular")) {
-        material.specular = clamped(number(*specular, "specularFactor", 1.0), 0, 1, object, "specularFactor");
         const auto color = numbers<3>(*specular, "specularColorFactor", 1.0);
         for (int i = 0; i < 3; ++i) {
             material.specular_color[i] =
-                clamped(color.at(static_cast<std::size_t>(i)), 0, kUnlimited, object, "specularColorFactor");
+                clamped(color.at(static_cast<std::size_t>(i)), 0, kMost, object, "specularColorFactor");
         }
-    }
-    if (const auto* thin_film = find(source.extensions, "KHR_materials_iridescence")) {
-        const auto read = [&](const char* key, double fallback, double lower, double upper) {
-            return clamped(number(*thin_film, key, fallback), lower, upper, object, key);
-        };
-        material.iridescence.factor = read("iridescenceFactor", 0.0, 0, 1);
-        material.iridescence.ior = read("iridescenceIor", 1.3, 1, kMaxFilm);
-        material.iridescence.thickness_minimum = read("iridescenceThicknessMinimum", 100.0, 0, kMaxFilm);
-        material.iridescence.thickness_maximum = read("iridescenceThicknessMaximum", 400.0, 0, kMaxFilm);
     }
 }
 

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "licht/core/error.h"
+#include "licht/scene/material_numbers.h"
 #include "licht/scene/scene.h"
 
 namespace licht {
@@ -51,18 +52,20 @@ void validateMaterials(const Scene& scene) {
         const Material& m = scene.materials[i];
         require(finite(m.base_color) && notNegative(vec3(m.base_color)) && m.base_color.w >= 0.0F, "material",
                 i, m.name, "the base colour is negative or not finite");
-        require(inUnit(m.metallic) && inUnit(m.roughness) && inUnit(m.specular), "material", i, m.name,
-                "metallic, roughness or specular lies outside [0,1]");
+        require(inUnit(m.metallic) && inUnit(m.roughness), "material", i, m.name,
+                "metallic or roughness lies outside [0,1]");
         require(notNegative(m.emission) && notNegative(m.specular_color), "material", i, m.name,
                 "emission or specular colour is negative or not finite");
         require(finite(m.normal_scale) && finite(m.alpha_cutoff), "material", i, m.name,
                 "normal scale or alpha cutoff is not finite");
         require(m.ior == 0.0F || (m.ior >= 1.0F && finite(m.ior)), "material", i, m.name,
                 "the index of refraction is neither 0 nor at least 1");
-        require(inUnit(m.iridescence.factor) && m.iridescence.ior >= 1.0F && finite(m.iridescence.ior),
-                "material", i, m.name, "iridescence lies outside [0,1] or its index of refraction below 1");
-        require(notNegative(vec3(m.iridescence.thickness_minimum, m.iridescence.thickness_maximum, 0.0F)),
-                "material", i, m.name, "a film's thickness is negative or not finite");
+        Material copy = m;
+        for (const MaterialNumber& row : kMaterialNumbers) {
+            const float value = row.of(copy);
+            require(value >= row.least && value <= row.most, "material", i, m.name,
+                    fmt::format("{} lies outside [{}, {}]", row.key, row.least, row.most));
+        }
         for (const TextureSlot& slot : m.slots) {
             require(!slot.present() || slot.texture < scene.textures.size(), "material", i, m.name,
                     "it names a texture that is not there");
