@@ -91,12 +91,12 @@ void addShapes(const Scene& scene, bool spheres, LightTable& table, std::vector<
             addSphere(table, weights, light, *ball, mesh.triangles.size());
             continue;
         }
-        const uint flags = (material.double_sided ? kLightDoubleSided : 0U) |
-                           (material.slots[kSlotEmissive].present() ? kLightTextured : 0U);
+        const uint flags =
+            (material.double_sided ? kLightDoubleSided : 0U) | (material.emitsEvenly() ? 0U : kLightUneven);
         for (uint k = 0; k < mesh.triangles.size(); ++k) {
             const Corners p = worldCorners(mesh, instance.world_from_object, k);
             light.primitive = k;
-            if (k + 1 < mesh.triangles.size() && !material.slots[kSlotEmissive].present()) {
+            if (k + 1 < mesh.triangles.size() && material.emitsEvenly()) {
                 if (const std::optional<Rectangle> r =
                         rectangleOf(p, worldCorners(mesh, instance.world_from_object, k + 1))) {
                     light.kind = kLightRectangle | flags;

@@ -55,7 +55,7 @@ bool alphaMatters(const Material& m, const Mesh& mesh) {
 }
 
 bool bendsNormals(const Material& m) {
-    return !m.unlit && m.slots[kSlotNormal].present() && m.normal_scale != 0.0F;
+    return !m.unlit && m.normalMap() != nullptr;
 }
 
 /// Whether what a slot reads can change a picture, slot by slot.
@@ -66,7 +66,7 @@ constexpr std::array<Influence, kSlotCount> kInfluence = [] {
         return anyPositive(vec3(m.base_color)) || alphaMatters(m, mesh);
     };
     table[kSlotMetallicRoughness] = [](const Material& m, const Mesh&) { return glossy(m); };
-    table[kSlotNormal] = [](const Material& m, const Mesh&) { return bendsNormals(m); };
+    table[kSlotNormal] = [](const Material& m, const Mesh&) { return !m.unlit && m.normal_scale != 0.0F; };
     table[kSlotEmissive] = [](const Material& m, const Mesh&) { return emits(m); };
     table[kSlotSpecular] = [](const Material& m, const Mesh&) { return !m.unlit && dielectricReflects(m); };
     table[kSlotSpecularColor] = table[kSlotSpecular];

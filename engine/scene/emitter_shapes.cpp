@@ -170,7 +170,7 @@ std::optional<Ball> roundEmitter(const Scene& scene, const Instance& instance) {
     const Mesh& mesh = scene.meshes[instance.mesh];
     const Material& m = scene.materials[mesh.material];
     const bool shines = !m.unlit && glm::any(glm::greaterThan(m.emission, vec3(0.0F)));
-    if (!shines || m.slots[kSlotEmissive].present() || m.alpha_mode != AlphaMode::opaque) return std::nullopt;
+    if (!shines || !m.emitsEvenly() || m.alpha_mode != AlphaMode::opaque) return std::nullopt;
     const std::optional<Ball> ball = ballOf(mesh, instance.world_from_object);
     if (!ball || ball->inner < kLeastRoundness * static_cast<double>(ball->radius)) return std::nullopt;
     return ball;

@@ -281,8 +281,8 @@ void complete(Asset& asset, Mesh& mesh, const Material& material, const std::str
                                    object, material.name, slot.uv_set));
         }
     }
-    if (material.slots[kSlotNormal].present() && material.normal_scale != 0.0F && mesh.tangents.empty()) {
-        deriveTangents(mesh, material.slots[kSlotNormal]);
+    if (const TextureSlot* map = material.normalMap(); map != nullptr && mesh.tangents.empty()) {
+        deriveTangents(mesh, *map);
     }
 }
 

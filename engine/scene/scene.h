@@ -71,6 +71,13 @@ struct Material {
     vec3 specular_color{1.0F};
     IridescenceRecord iridescence{0.0F, 1.3F, 100.0F, 400.0F};
     std::array<TextureSlot, kSlotCount> slots{};  ///< by kSlot...
+
+    /// The same light from every point and in every direction.
+    [[nodiscard]] bool emitsEvenly() const { return !slots[kSlotEmissive].present(); }
+    /// The normal map along whose coordinates tangents are derived; null where none bends a normal.
+    [[nodiscard]] const TextureSlot* normalMap() const {
+        return slots[kSlotNormal].present() && normal_scale != 0.0F ? &slots[kSlotNormal] : nullptr;
+    }
 };
 
 /// Indexed triangles with one material. Every attribute array is empty or as long as positions.

@@ -154,16 +154,15 @@ float pdfOfSun(LightRecord sun) { return sun.pmf / solidAngleCone(sun.cone_scale
 
 bool isInSun(LightRecord sun, vec3 direction) { return insideCone(-sun.direction, sun.cone_scale, direction); }
 
-// What the light emits at a point of its plane, seen from the front or the back.
-vec3 shapeEmission(LightRecord light, vec3 point, bool front) {
+// What the light emits at a point of its plane towards wo, seen from the front or the back.
+vec3 shapeEmission(LightRecord light, vec3 point, bool front, vec3 wo) {
     if (!front && (light.kind & kLightDoubleSided) == 0u) return vec3(0.0);
-    if (!kTextures || (light.kind & kLightTextured) == 0u) return light.emission;
+    if (!kUnevenEmission || (light.kind & kLightUneven) == 0u) return light.emission;
     vec3 n = areaVector(light);
     vec3 at = point - light.position;
     float inverse = 1.0 / dot(n, n);
     vec2 b = clamp(vec2(dot(cross(at, light.intensity), n), dot(cross(light.direction, at), n)) * inverse, 0.0, 1.0);
-    uvec3 v = triangleVertices(light.instance, light.primitive);
-    return emissionOf(materialAt(instanceAt(light.instance).material), v, vec3(1.0 - b.x - b.y, b), true);
+    return emissionAt(light.instance, light.primitive, vec3(1.0 - b.x - b.y, b), normalize(n), front, wo);
 }
 
 LightSample sampleShape(LightRecord light, float pmf, Surface from, vec2 u) {
@@ -184,7 +183,7 @@ LightSample sampleShape(LightRecord light, float pmf, Surface from, vec2 u) {
         d = corner + b.x * light.direction + b.y * light.intensity;
     }
     float d2 = dot(d, d);
-    vec3 radiance = shapeEmission(light, from.position + d, dot(area, d) < 0.0);
+    vec3 radiance = shapeEmission(light, from.position + d, dot(area, d) < 0.0, -normalize(d));
     float pdf = pmf * pdfOnShape(light, omega, d, d2);
     bool valid = d2 > 0.0 && largest(radiance) > 0.0 && pdf > 0.0 && !isinf(pdf);
     // The ray ends before the light's plane by as much as both may be off.

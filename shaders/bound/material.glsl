@@ -4,6 +4,7 @@
 
 #include "bound/texture.glsl"
 #include "pure/bsdf.glsl"
+#include "pure/frame.glsl"
 #include "shared/constants.h"
 #include "shared/material.h"
 #include "shared/slots.h"
@@ -36,28 +37,60 @@ bool covers(uint instance, uint primitive, float b1, float b2, float u) {
     return (m.flags & kMaterialAlphaMask) != 0u ? alpha >= m.alpha_cutoff : u < alpha;
 }
 
+// Where a material is asked what it emits and scatters.
+struct Spot {
+    uvec3 vertices;
+    vec3 weights;
+    Placement placement;
+    bool tangents;  // the vertices have them
+    bool front;     // wo is where the triangle's front faces
+    vec3 normal;    // interpolated, unit, world, on the triangle's front
+    vec3 wo;        // unit, world
+};
+
 // glTF's normal map: tangent space of the interpolated normal and the vertices' tangents.
-vec3 mappedNormal(MaterialRecord m, Placement at, uvec3 v, vec3 weights, vec3 n) {
-    vec4 t = weights.x * worldTangent(at, tangents[v.x]) + weights.y * worldTangent(at, tangents[v.y]) + weights.z * worldTangent(at, tangents[v.z]);
+vec3 mappedNormal(MaterialRecord m, uint kind, float scale, Spot p) {
+    uvec3 v = p.vertices;
+    vec3 n = p.normal;
+    vec4 t = p.weights.x * worldTangent(p.placement, tangents[v.x]) + p.weights.y * worldTangent(p.placement, tangents[v.y]) +
+             p.weights.z * worldTangent(p.placement, tangents[v.z]);
     vec3 tangent = t.xyz - dot(t.xyz, n) * n;
     float length2 = dot(tangent, tangent);
     if (!(length2 > 0.0)) return n;
     tangent *= inversesqrt(length2);
     vec3 bitangent = (t.w < 0.0 ? -1.0 : 1.0) * cross(n, tangent);
-    vec3 k = sampleSlot(m, kSlotNormal, v, weights).xyz * 2.0 - 1.0;
-    vec3 mapped = k.x * m.normal_scale * tangent + k.y * m.normal_scale * bitangent + k.z * n;
+    vec3 k = sampleSlot(m, kind, v, p.weights).xyz * 2.0 - 1.0;
+    vec3 mapped = k.x * scale * tangent + k.y * scale * bitangent + k.z * n;
     float mapped2 = dot(mapped, mapped);
     return mapped2 > 0.0 ? mapped * inversesqrt(mapped2) : n;
 }
 
-// Emitted towards wo, cd/m^2. Single-sided surfaces emit from their front.
-vec3 emissionOf(MaterialRecord m, uvec3 v, vec3 weights, bool front) {
-    if (!kEmission || !(front || (m.flags & kMaterialDoubleSided) != 0u)) return vec3(0.0);
-    return m.emission * sampleSlot(m, kSlotEmissive, v, weights).rgb;
+// The normal by the map in that slot, unit, world, on the side of wo; bent back into view where interpolation or the map turns it away from wo.
+vec3 shadingNormal(MaterialRecord m, uint kind, float scale, Spot p) {
+    vec3 n = p.normal;
+    if (kNormalMaps && p.tangents && hasTexture(m, kind)) n = mappedNormal(m, kind, scale, p);
+    n = p.front ? n : -n;
+    // Keeps wo inside the hemisphere by more than the rounding of the frame. Normalising lengthens n by up to half its square, 5e-7 of it, which is given
+    // back beforehand, and more.
+    const float kLowestCosine = 1e-3;
+    float away = dot(n, p.wo);
+    return away < kLowestCosine ? normalize(n + (kLowestCosine - away) * 1.0001 * p.wo) : n;
 }
 
-Bsdf bsdfOf(MaterialRecord m, uvec3 v, vec3 weights, vec3 base) {
+// Whether a surface may send different light from its points or in different directions.
+const bool kUnevenEmission = kTextures;
+
+// Emitted towards wo, cd/m^2. Single-sided surfaces emit from their front.
+vec3 emissionOf(MaterialRecord m, Spot p) {
+    if (!kEmission || !(p.front || (m.flags & kMaterialDoubleSided) != 0u)) return vec3(0.0);
+    return m.emission * sampleSlot(m, kSlotEmissive, p.vertices, p.weights).rgb;
+}
+
+// frame: around the shading normal, in which the BSDF is local. base: the base colour.
+Bsdf bsdfOf(MaterialRecord m, Spot p, Frame frame, vec3 base) {
     if (!kGlossy) return lambertBsdf(base);
+    uvec3 v = p.vertices;
+    vec3 weights = p.weights;
     float metallic = m.metallic;
     float roughness = m.roughness;
     float specular = m.specular;

@@ -59,6 +59,21 @@ Face faceOf(Placement at, vec3 p0, vec3 p1, vec3 p2) {
     return Face(normal, kPositionUnits * error);
 }
 
+// face_normal: of the triangle's front.
+Spot spotAt(InstanceRecord instance, uvec3 v, vec3 weights, Placement at, vec3 face_normal, bool front, vec3 wo) {
+    vec3 n = weights.x * worldNormal(at, vertexAt(v.x).normal) + weights.y * worldNormal(at, vertexAt(v.y).normal) +
+             weights.z * worldNormal(at, vertexAt(v.z).normal);
+    float n2 = dot(n, n);
+    return Spot(v, weights, at, (instance.flags & kInstanceTangents) != 0u, front, n2 > 0.0 ? n * inversesqrt(n2) : face_normal, wo);
+}
+
+// What a triangle that is no place of a hit emits: a point of a light. face_normal: unit, of its front. wo: unit, world.
+vec3 emissionAt(uint instance_index, uint primitive, vec3 weights, vec3 face_normal, bool front, vec3 wo) {
+    InstanceRecord instance = instanceAt(instance_index);
+    uvec3 v = triangleVertices(instance_index, primitive);
+    return emissionOf(materialAt(instance.material), spotAt(instance, v, weights, placementOf(instance_index), face_normal, front, wo));
+}
+
 // wo: unit, world, towards where the path came from.
 Surface surfaceAt(Hit hit, vec3 wo) {
     InstanceRecord instance = instanceAt(hit.instance);
@@ -75,25 +90,14 @@ Surface surfaceAt(Hit hit, vec3 wo) {
     s.face_normal = s.front ? face.normal : -face.normal;
     s.error_bound = face.error_bound;
 
-    // The shading normal, on the same side; bent back into view where interpolation or a map turns it away from wo.
-    vec3 n = weights.x * worldNormal(at, vertexAt(v.x).normal) + weights.y * worldNormal(at, vertexAt(v.y).normal) +
-             weights.z * worldNormal(at, vertexAt(v.z).normal);
-    float n2 = dot(n, n);
-    n = n2 > 0.0 ? n * inversesqrt(n2) : face.normal;
-    if (kNormalMaps && (instance.flags & kInstanceTangents) != 0u && hasTexture(m, kSlotNormal)) n = mappedNormal(m, at, v, weights, n);
-    n = s.front ? n : -n;
-    // Keeps wo inside the hemisphere by more than the rounding of the frame. Normalising lengthens n by up to half its square, 5e-7 of it, which is given
-    // back beforehand, and more.
-    const float kLowestCosine = 1e-3;
-    float away = dot(n, wo);
-    if (away < kLowestCosine) n = normalize(n + (kLowestCosine - away) * 1.0001 * wo);
-    s.frame = frameFromNormal(n);
+    Spot spot = spotAt(instance, v, weights, at, face.normal, s.front, wo);
+    s.frame = frameFromNormal(shadingNormal(m, kSlotNormal, m.normal_scale, spot));
 
     vec4 base = baseColorAt(m, v, weights);
     bool unlit = kUnlit && (m.flags & kMaterialUnlit) != 0u;
     s.base_color = base.rgb;
-    s.bsdf = bsdfOf(m, v, weights, base.rgb);
-    s.emission = emissionOf(m, v, weights, s.front);
+    s.bsdf = bsdfOf(m, spot, s.frame, base.rgb);
+    s.emission = emissionOf(m, spot);
     s.light = kNoIndex;
     if (kLightTriangles && instance.first_light != kNoIndex && largest(s.emission) > 0.0) s.light = instance.first_light + hit.primitive;
     if (unlit) {

@@ -31,13 +31,11 @@ Bsdf regularised(Bsdf b) {
 
 // Share of samples spent on the specular layer: by what it sends towards wo against the diffuse layer.
 float shareOfSpecular(Bsdf b, vec3 wo) {
-    // No lobe is starved, for the estimate of its share is for wo alone: weights stay below ten times a lobe's own.
-    const float kLeastShare = 0.1;
     float specular = largest(albedoSpecular(b.specular, wo.z));
     float diffuse = largest(albedoDiffuse(b.diffuse));
     if (specular <= 0.0 && !hasThinFilm(b.specular)) return 0.0;
     if (diffuse <= 0.0) return 1.0;
-    return clamp(specular / (specular + diffuse), kLeastShare, 1.0 - kLeastShare);
+    return shareOfLobe(specular, diffuse);
 }
 
 // For choosing lights: the width of its gloss, and what the specular layer reflects of light along the mirror direction, F G / (4 cos_o),
@@ -57,9 +55,12 @@ vec2 glossTowards(Bsdf b, float cos_o) {
 LobeValue evaluateBsdf(Bsdf b, vec3 wo, vec3 wi) {
     if (!sameSide(wo, wi)) return kNothing;
     if (!kGlossy) return evaluateDiffuse(b.diffuse, wi, 1.0);
-    LobeValue specular = evaluateSpecular(b.specular, wo, wi);
-    LobeValue diffuse = evaluateDiffuse(b.diffuse, wi, passSpecular(b.specular, wo.z, wi.z));
-    return LobeValue(diffuse.f + specular.f, mix(diffuse.pdf, specular.pdf, shareOfSpecular(b, wo)));
+    return over(evaluateSpecular(b.specular, wo, wi), evaluateDiffuse(b.diffuse, wi, passSpecular(b.specular, wo.z, wi.z)), shareOfSpecular(b, wo));
+}
+
+// Of one of the lobes; may point below the surface.
+vec3 sampleDirection(Bsdf b, vec3 wo, float u_lobe, vec2 u) {
+    return u_lobe < shareOfSpecular(b, wo) ? sampleSpecular(b.specular, wo, u) : sampleDiffuse(u);
 }
 
 BsdfSample sampleBsdf(Bsdf b, vec3 wo, float u_lobe, vec2 u) {
@@ -69,7 +70,7 @@ BsdfSample sampleBsdf(Bsdf b, vec3 wo, float u_lobe, vec2 u) {
         vec3 wi = sampleDiffuse(u);
         return BsdfSample(wi, pdfCosineHemisphere(wi.z), albedoDiffuse(b.diffuse), wi.z > 0.0);
     }
-    vec3 wi = u_lobe < shareOfSpecular(b, wo) ? sampleSpecular(b.specular, wo, u) : sampleDiffuse(u);
+    vec3 wi = sampleDirection(b, wo, u_lobe, u);
     LobeValue value = evaluateBsdf(b, wo, wi);
     return value.pdf > 0.0 ? BsdfSample(wi, value.pdf, value.f * (wi.z / value.pdf), true) : kAbsorbed;
 }

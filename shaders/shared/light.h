@@ -14,7 +14,7 @@ LICHT_CONSTANT uint kLightRectangle = 5u;
 LICHT_CONSTANT uint kLightSphere = 6u;  // a round mesh, by the sphere around it
 LICHT_CONSTANT uint kLightKindMask = 0xffu;
 LICHT_CONSTANT uint kLightDoubleSided = 0x100u;  // flags beside the kind
-LICHT_CONSTANT uint kLightTextured = 0x200u;
+LICHT_CONSTANT uint kLightUneven = 0x200u;       // what it emits varies over it or by direction
 
 struct LightRecord {
     vec3 position;     // punctual: world; triangle, rectangle: the first corner; sphere: the centre

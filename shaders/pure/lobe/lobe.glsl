@@ -13,6 +13,22 @@ struct LobeValue {
 
 const LobeValue kNothing = LobeValue(vec3(0.0), 0.0);
 
+// A layer over what lies below. share: of the samples that are spent on the layer.
+LobeValue over(LobeValue layer, LobeValue below, float share) { return LobeValue(layer.f + below.f, mix(below.pdf, layer.pdf, share)); }
+
+// What lies below, of whose light a layer passes that share.
+LobeValue under(float passed, LobeValue below) { return LobeValue(passed * below.f, below.pdf); }
+
+// Share of the samples of a lobe by what it sends towards wo against another one. No lobe is starved, for that is an estimate for wo alone: weights stay
+// below ten times a lobe's own.
+float shareOfLobe(float its, float others) {
+    const float kLeastShare = 0.1;
+    return clamp(its / (its + others), kLeastShare, 1.0 - kLeastShare);
+}
+
+// What a number that decided between lobes has not yet decided is uniform again.
+float rescaledBelow(float u, float share) { return (u - share) / (1.0 - share); }
+
 // Whether light can be reflected from the one to the other: both are above the surface.
 bool sameSide(vec3 wo, vec3 wi) { return wo.z > 0.0 && wi.z > 0.0; }
 
