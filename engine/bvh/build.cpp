@@ -1,12 +1,12 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <chrono>
 #include <string>
 
 #include "licht/bvh/binary_tree.h"
 #include "licht/bvh/ray_setup.h"
 #include "licht/bvh/reinsert.h"
+#include "licht/core/clock.h"
 #include "licht/core/error.h"
 
 namespace licht {
@@ -42,7 +42,7 @@ std::uint32_t makeReferences(std::span<const BvhTriangle> triangles, std::span<B
 }  // namespace
 
 Bvh buildBvh(std::span<const BvhTriangle> triangles, const BvhBuildOptions& options) {
-    const auto start = std::chrono::steady_clock::now();
+    const Clock::time_point start = Clock::now();
     if (triangles.size() > kBvhMostTriangles) {
         throw InputError("the scene has " + std::to_string(triangles.size()) + " triangles, at most " +
                          std::to_string(kBvhMostTriangles) + " can be traced");
@@ -71,7 +71,7 @@ Bvh buildBvh(std::span<const BvhTriangle> triangles, const BvhBuildOptions& opti
         reinsert(nodes.span());
     }
     collapse(nodes.span(), bvh);
-    bvh.build_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    bvh.build_seconds = secondsSince(start);
     return bvh;
 }
 

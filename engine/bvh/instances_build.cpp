@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 
 #include "licht/bvh/instances.h"
+#include "licht/core/clock.h"
 #include "licht/shared/bvh_numerics.h"
 
 namespace licht {
@@ -28,7 +28,7 @@ std::vector<vec3> usedPoints(const Bvh& bvh, std::span<const BvhTriangle> triang
 TwoLevelBvh buildTwoLevelBvh(std::span<const BvhTriangle> baked,
                              std::span<const std::vector<BvhTriangle>> meshes,
                              std::vector<BvhInstance> instances, const BvhBuildOptions& options) {
-    const auto start = std::chrono::steady_clock::now();
+    const Clock::time_point start = Clock::now();
     TwoLevelBvh tree;
     tree.baked = buildBvh(baked, options);
     std::vector<std::vector<vec3>> points;
@@ -51,7 +51,7 @@ TwoLevelBvh buildTwoLevelBvh(std::span<const BvhTriangle> baked,
     }
     tree.slack = kInstanceSlack * condition;
     tree.top = buildBinary(tree.top_boxes);
-    tree.build_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    tree.build_seconds = secondsSince(start);
     return tree;
 }
 

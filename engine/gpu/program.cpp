@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <chrono>
 #include <utility>
 
+#include "licht/core/clock.h"
 #include "licht/core/error.h"
 
 namespace licht::gpu {
@@ -79,10 +79,6 @@ void requireStage(const Reflection& stage, VkShaderStageFlagBits wanted, const s
     }
 }
 
-double secondsSince(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
 }  // namespace
 
 void Program::createLayout(const std::vector<Reflection>& stages) {
@@ -132,7 +128,7 @@ void Program::createLayout(const std::vector<Reflection>& stages) {
 }
 
 Program Program::compute(Device& device, std::string name, Spirv shader, const SpecConstants& constants) {
-    const auto start = std::chrono::steady_clock::now();
+    const Clock::time_point start = Clock::now();
     const Reflection stage = reflect(shader);
     Program program;
     program.device_ = &device;
@@ -164,7 +160,7 @@ Program Program::compute(Device& device, std::string name, Spirv shader, const S
 
 Program Program::raster(Device& device, std::string name, Spirv vertex, Spirv fragment,
                         const RasterState& state, const SpecConstants& constants) {
-    const auto start = std::chrono::steady_clock::now();
+    const Clock::time_point start = Clock::now();
     const Reflection vertex_stage = reflect(vertex);
     const Reflection fragment_stage = reflect(fragment);
     Program program;

@@ -1,17 +1,15 @@
 #include "licht/probe/ray_tracer.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cstring>
 
+#include "licht/core/clock.h"
 #include "licht/shared/constants.h"
 #include "licht/spirv/trace_rays_comp.h"
 #include "licht/spirv/trace_rays_refilled_comp.h"
 
 namespace licht {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 // Long enough that the cost of a submission (about 0.1 ms) is not seen, short enough for every watchdog.
 constexpr double kSliceSeconds = 0.25;
@@ -63,7 +61,7 @@ double RayTracer::traceRange(const RayRange& range) {
     commands_.dispatch("trace_rays", {program_, bindings_}, {threads});
     commands_.submit();
     commands_.wait();
-    return std::chrono::duration<double>(Clock::now() - start).count();
+    return secondsSince(start);
 }
 
 // Rays whose walk is cut write nothing.

@@ -2,11 +2,11 @@
 
 #include <array>
 #include <cassert>
-#include <chrono>
 #include <cmath>
 #include <cstring>
 #include <optional>
 
+#include "licht/core/clock.h"
 #include "licht/core/error.h"
 #include "licht/film/develop.h"
 #include "licht/gpu/lanes.h"
@@ -27,12 +27,6 @@
 
 namespace licht {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double secondsSince(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 // A submission that runs longer than this meets the watchdogs of desktop systems (about two seconds) on a
 // slow moment.

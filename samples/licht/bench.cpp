@@ -1,11 +1,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <memory>
 #include <span>
 
+#include "licht/core/clock.h"
 #include "licht/core/file.h"
 #include "licht/core/progress.h"
 #include "licht/on_device/flat_geometry.h"
@@ -22,8 +22,6 @@
 namespace licht {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 /// What is being done, and after the first run how long the runs that are left will take.
 class BenchProgress {
 public:
@@ -33,8 +31,7 @@ public:
     void startRuns() { start_ = Clock::now(); }
     void runDone(std::string_view kind) {
         ++done_;
-        const double seconds = std::chrono::duration<double>(Clock::now() - start_).count();
-        const double left = seconds / done_ * (runs_ - done_);
+        const double left = secondsSince(start_) / done_ * (runs_ - done_);
         show(fmt::format("{}: run {} of {}  {:.0f} s left", kind, done_, runs_, left));
     }
 

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <cstring>
 #include <thread>
 
@@ -11,18 +10,13 @@
 #endif
 #include <fmt/format.h>
 
+#include "licht/core/clock.h"
 #include "licht/core/error.h"
 #include "licht/shared/index.h"
 #include "samples/yardstick/yardstick.h"
 
 namespace licht {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double secondsSince(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 // The two versions differ in where the options of a call stand.
 #if LICHT_EMBREE_MAJOR >= 4
