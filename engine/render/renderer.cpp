@@ -19,6 +19,7 @@
 #include "licht/render/programs.h"
 #include "licht/render/queues.h"
 #include "licht/render/view.h"
+#include "licht/settings/settings_table.h"
 #include "licht/shared/constants.h"
 #include "licht/shared/counters.h"
 #include "licht/shared/effects.h"
@@ -64,14 +65,9 @@ std::uint32_t pathsPerThread(const gpu::Device& device, const RenderSettings& se
 gpu::SpecConstants constantsOf(const GpuScene& scene, const RenderSettings& settings,
                                std::uint32_t paths_per_thread) {
     gpu::SpecConstants constants = scene.constants();
-    constants[kConstantDirect] = static_cast<uint>(settings.direct);
-    constants[kConstantMisBalance] = settings.mis == MisHeuristic::balance ? 1U : 0U;
-    constants[kConstantSampler] = static_cast<uint>(settings.sampler);
+    constants.merge(programConstants(settings));
     constants[kConstantBlueBits] = settings.blue_bits;
-    constants[kConstantClamp] = settings.clamp > 0.0F ? 1U : 0U;
-    constants[kConstantRegularise] = settings.regularise ? 1U : 0U;
     constants[kConstantOrders] = settings.orders ? settings.bounces + 1U : 0U;
-    constants[kConstantAdaptive] = settings.adaptive ? 1U : 0U;
     constants[kConstantPathsPerThread] = paths_per_thread;
     if (settings.all_effects) {
         constants[kConstantTexturePages] = kTexturePages;

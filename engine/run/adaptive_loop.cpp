@@ -1,20 +1,15 @@
-#include <chrono>
+#include "licht/run/adaptive_loop.h"
+
 #include <limits>
 
+#include "licht/core/clock.h"
 #include "licht/film/adaptive_film.h"
 #include "licht/film/error_estimate.h"
 #include "licht/render/renderer.h"
 #include "licht/run/process_clock.h"
-#include "licht/run/render_loop.h"
 
 namespace licht {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double secondsSince(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 std::optional<std::uint32_t> wantedSamples(const StopRules& rules) {
     return rules.samples == std::numeric_limits<std::uint32_t>::max() ? std::nullopt

@@ -1,19 +1,13 @@
 #include "licht/run/pilot.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
+#include "licht/core/clock.h"
 #include "licht/render/renderer.h"
 
 namespace licht {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double secondsSince(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 constexpr double kPilotPixels = 2304.0;
 constexpr std::uint32_t kDepthSamples = 16;

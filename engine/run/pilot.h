@@ -10,11 +10,6 @@
 
 namespace licht {
 
-/// No depth beyond this is chosen: a closed room of albedo one has no depth at which light is spent.
-inline constexpr std::uint32_t kMostAutoBounces = 256;
-/// Share of the light that may be missing where no error was asked for.
-inline constexpr double kDefaultTailShare = 0.01;
-
 struct DepthChoice {
     std::uint32_t bounces = 0;
     double wanted_share = kDefaultTailShare;

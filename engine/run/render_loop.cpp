@@ -1,20 +1,13 @@
 #include "licht/run/render_loop.h"
 
-#include <chrono>
 #include <limits>
 
-#include "licht/film/error_estimate.h"
 #include "licht/render/renderer.h"
+#include "licht/run/accumulation.h"
+#include "licht/run/adaptive_loop.h"
 #include "licht/run/process_clock.h"
 
 namespace licht {
-namespace {
-
-double secondsSince(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-}  // namespace
 
 ProgressState progressOf(const StopRules& rules, const Advance& advance) {
     ProgressState state;
@@ -28,36 +21,23 @@ ProgressState progressOf(const StopRules& rules, const Advance& advance) {
 
 LoopResult renderUntil(Renderer& renderer, const RenderSettings& settings, const StopRules& rules,
                        const LoopHooks& hooks) {
+    if (settings.adaptive) return renderAdaptively(renderer, rules, hooks);
     LoopResult result;
-    Advance advance;
-    ErrorEstimate estimate(settings.sampler, settings.first_sample);
-    ErrorSchedule schedule(rules.error, settings.sampler != Sequence::random);
-    const auto start = std::chrono::steady_clock::now();
+    Accumulation picture(renderer, settings, rules.error);
     while (result.stopped_by == Stop::none) {
         renderer.renderSample();
-        if (advance.samples == 0) {
+        if (result.first_image_seconds == 0.0) {
             renderer.finish();
             result.first_image_seconds = secondsSinceProcessStart();
         }
-        advance.samples = renderer.samples();
-        advance.seconds = secondsSince(start);
+        Advance advance = picture.look();
         advance.interrupted = hooks.interrupted && hooks.interrupted();
-        if (schedule.due(advance.samples, advance.seconds)) {
-            const auto before = std::chrono::steady_clock::now();
-            renderer.finish();
-            const auto finished = std::chrono::steady_clock::now();
-            advance.error = estimate.look(renderer.readFilm());
-            advance.error_samples = advance.samples;
-            advance.seconds += std::chrono::duration<double>(finished - before).count();
-            schedule.checked(advance, secondsSince(finished));
-        }
         if (hooks.progress) hooks.progress(progressOf(rules, advance));
         result.stopped_by = decideStop(rules, advance);
     }
-    renderer.finish();
-    result.render_seconds = secondsSince(start);
-    result.film = renderer.readFilm();
-    result.error = estimate.look(result.film);
+    result.film = picture.finish();
+    result.render_seconds = picture.advance().seconds;
+    result.error = picture.advance().error;
     return result;
 }
 

@@ -25,12 +25,9 @@ struct LoopHooks {
     std::function<void(const ProgressState&)> progress;  ///< called after every sample
 };
 
-/// Renders sample after sample until a rule is met; at least one. `settings` are the renderer's.
+/// Renders sample after sample, or round after round where samples go where the noise is, until a rule is
+/// met; at least one sample. `settings` are the renderer's.
 LoopResult renderUntil(Renderer& renderer, const RenderSettings& settings, const StopRules& rules,
                        const LoopHooks& hooks = {});
-
-/// The same, round after round, samples where the noise is; settings.adaptive is on. Rules are looked at
-/// between rounds, an interruption after every frame.
-LoopResult renderAdaptively(Renderer& renderer, const StopRules& rules, const LoopHooks& hooks = {});
 
 }  // namespace licht

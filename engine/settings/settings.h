@@ -1,10 +1,12 @@
 #pragma once
-// What a picture is asked to be: plain values with the defaults that suit most.
+// What a picture is asked to be: plain values with the defaults that suit most. settings_table.h says how
+// each is called, what it may be and where it is told.
 #include <cstdint>
+#include <limits>
+#include <optional>
 
-#include "licht/bvh/bvh.h"
 #include "licht/core/math.h"
-#include "licht/shared/choices.h"
+#include "licht/settings/choices.h"
 
 namespace licht {
 
@@ -18,41 +20,10 @@ struct AovSet {
     [[nodiscard]] bool any() const { return albedo || normal || depth || motion; }
 };
 
-/// How direct light is found. mis: next event estimation and scattering combined; hemisphere: scattering
-/// alone, the rendering equation over directions; area: next event estimation alone, the equation over
-/// surfaces. What only one of them can find (a point light; a surface too large to be worth sampling) is
-/// found in every mode.
-enum class DirectLight : std::uint32_t {
-    mis = kDirectMis,
-    hemisphere = kDirectHemisphere,
-    area = kDirectArea
-};
-
-/// How mis weighs (Veach 1997): by the densities' squares or by the densities.
-enum class MisHeuristic : std::uint32_t { power, balance };
-
-/// How one light is picked of many: by a tree over where they are and whom they face, by their power, or all
-/// alike.
-enum class LightChoice : std::uint32_t { tree = kLightsTree, power = kLightsPower, uniform = kLightsUniform };
-
-/// How a direction towards the environment is drawn; all three have the same density.
-enum class EnvironmentSampling : std::uint32_t {
-    alias = kEnvironmentAlias,
-    inversion = kEnvironmentInversion,
-    rejection = kEnvironmentRejection
-};
-
-/// Where the numbers come from: an Owen-scrambled Sobol sequence, one whose errors are blue noise over the
-/// picture, or independent random numbers.
-enum class Sequence : std::uint32_t { sobol = kSamplerSobol, blue = kSamplerBlue, random = kSamplerRandom };
-
 struct RenderSettings {
     uvec2 size{960, 540};
-    std::uint32_t bounces = 8;  ///< L = sum of T^i Le for i <= bounces
-    /// First bounce that may end a path by chance; >= bounces: never. relMSE after equal time from 2 and from
-    /// 3: cornell 0.0070, 0.0061; gallery 0.70, 0.57; hall of lamps 0.147, 0.149. Never: 1.5 times that of 3
-    /// in the last two.
-    std::uint32_t roulette_start = 3;
+    std::uint32_t bounces = 8;         ///< L = sum of T^i Le for i <= bounces
+    std::uint32_t roulette_start = 3;  ///< first bounce that may end a path by chance; >= bounces: never
     std::uint32_t seed = 0;
     std::uint32_t first_sample = 0;  ///< index of the first sample: ranges rendered apart merge to the whole
     DirectLight direct = DirectLight::mis;
@@ -60,29 +31,54 @@ struct RenderSettings {
     LightChoice lights = LightChoice::tree;
     EnvironmentSampling environment_sampling = EnvironmentSampling::inversion;
     Sequence sampler = Sequence::sobol;
-    std::uint32_t blue_bits = 4;  ///< blue: log2 of the samples that are well spread together, at most 10
-    float clamp =
-        0.0F;  ///< cd/m^2 that one indirect contribution may add to a pixel; 0: unlimited (unbiased)
+    /// blue: log2 of the samples that are well spread together, at most 10 (blueBitsFor()).
+    std::uint32_t blue_bits = 4;
+    /// cd/m^2 that one indirect contribution may add to a pixel; 0: unlimited (unbiased).
+    float clamp = 0.0F;
     bool regularise = false;  ///< widen glossy lobes behind a first scattering (biased)
     bool orders = false;      ///< keep a layer per order T^i Le
     bool adaptive = false;    ///< samples are drawn where a mask says so
     AovSet aovs;
-    bool all_effects =
-        false;  ///< compile everything, called for or not (the reference for the specialised programs)
+    /// Compile everything, called for or not (the reference for the specialised programs).
+    bool all_effects = false;
     BvhQuality bvh_quality = BvhQuality::balanced;
     bool flatten_instances = false;  ///< bake every instance (the reference for two levels)
-    bool storage_buffers = false;    ///< fetch BVH and records from storage buffers even where texel buffers
-                                     ///< are large enough
+    /// Fetch BVH and records from storage buffers even where texel buffers are large enough.
+    bool storage_buffers = false;
     bool queues = false;  ///< small kernels with queues between them instead of one kernel: the same samples
-    std::uint32_t paths_per_thread =
-        0;                              ///< that a thread follows one after the other; 0: as suits the device
-    std::uint32_t rays_per_thread = 0;  ///< of a queue that a thread traces; more than one: in lanes that are
-                                        ///< refilled; 0: as suits the device
+    /// That a thread follows one after the other; 0: as suits the device.
+    std::uint32_t paths_per_thread = 0;
+    /// Of a queue that a thread traces; more than one: in lanes that are refilled; 0: as suits the device.
+    std::uint32_t rays_per_thread = 0;
 };
 
-enum class Tonemap : std::uint32_t { none, neutral, agx, aces };
+/// What a run is asked for: the picture, when to stop, and what is left to the program to choose. The first
+/// limit that is reached stops a run; without any it draws kDefaultSamples.
+struct RunSettings {
+    RenderSettings render;
+    std::optional<std::uint32_t> samples;  ///< per pixel
+    std::optional<double> seconds;         ///< of rendering
+    std::optional<double> error;           ///< estimated and relative
+    bool auto_bounces = false;             ///< a pilot chooses render.bounces
+    QueueUse queues = QueueUse::automatic;
+    std::optional<double> exposure;  ///< EV; none: the scene's
+    Tonemap tonemap = Tonemap::neutral;
+};
 
-/// Whether paths go through queues; automatic: where that is measured to pay.
-enum class QueueUse { automatic, on, off };
+/// Per pixel, where neither time nor error says when to stop.
+inline constexpr std::uint32_t kDefaultSamples = 64;
+/// There are no more: the last one has the index before this.
+inline constexpr std::uint32_t kMostSamples = std::numeric_limits<std::uint32_t>::max();
+inline constexpr std::uint32_t kMostBounces = 65535;
+/// No depth beyond this is chosen: a closed room of albedo one has no depth at which light is spent.
+inline constexpr std::uint32_t kMostAutoBounces = 256;
+/// Share of the light that may be missing behind a chosen depth where no error was asked for.
+inline constexpr double kDefaultTailShare = 0.01;
+/// EV, either way: beyond, 2^EV and a float radiance soon have no common range.
+inline constexpr double kMostExposure = 64.0;
+
+/// log2 of the samples that sampler blue spreads well together, for a picture of that many per pixel; the
+/// default where that is not known.
+std::uint32_t blueBitsFor(std::optional<std::uint32_t> samples);
 
 }  // namespace licht

@@ -5,17 +5,15 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <limits>
+#include <span>
 
 #include "licht/core/error.h"
-#include "licht/run/pilot.h"
-#include "licht/settings/settings.h"
+#include "licht/settings/settings_table.h"
 #include "samples/licht/text.h"
 #include "samples/scenes/builtin.h"
 
 namespace licht {
 namespace {
-
-constexpr std::uint32_t kMaxCount32 = std::numeric_limits<std::uint32_t>::max();
 
 /// An option of one value that `take` parses; take is given the option's name for its message.
 template <typename Take>
@@ -65,126 +63,40 @@ void addSource(CLI::App& app, SceneRequest& source) {
              })
         ->excludes(environment);
     addValue(app, "--sun-angle", "DEGREES",
-             "Angle that directional lights fill, 0 to 180; the sun's is 0.53 (default: 0, sharp shadows)",
+             fmt::format(
+                 "Angle that directional lights fill, 0 to {}; the sun's is 0.53 (default: 0, sharp shadows)",
+                 kWidestSun),
              [&source](std::string_view option, std::string_view text) {
-                 source.sun_angle = parseAngle(option, text);
+                 source.sun_angle = parseNumber(option, text, 0.0, kWidestSun);
              });
 }
 
-void addLook(CLI::App& app, std::optional<uvec2>& size, std::optional<double>& exposure, Tonemap& tonemap,
-             std::string& device, const std::string& default_size) {
+void addSize(CLI::App& app, std::optional<uvec2>& size, const std::string& default_size) {
     addValue(app, "--size", "WxH", "Width and height in pixels (default: " + default_size + ")",
              [&size](std::string_view option, std::string_view text) { size = parseSize(option, text); });
-    addValue(app, "--exposure", "EV",
-             "Display exposure in stops: values are multiplied by 2^EV (default: the scene's)",
-             [&exposure](std::string_view option, std::string_view text) {
-                 exposure = parseExposure(option, text);
-             });
-    addValue(app, "--tonemap", "CURVE", "Display curve: none, neutral, agx or aces (default: neutral)",
-             [&tonemap](std::string_view option, std::string_view text) {
-                 tonemap = parseChoice<Tonemap>(option, text);
-             });
-    addDevice(app, device);
 }
 
-/// `automatic`: set by "--bounces auto"; null where that is not offered.
-void addTransport(CLI::App& app, RenderSettings& settings, bool* automatic) {
-    const std::string meaning = "0: emission alone, 1: and direct light, and so on (default: 8)";
-    addValue(
-        app, "--bounces", automatic != nullptr ? "N|auto" : "N",
-        automatic == nullptr
-            ? meaning
-            : meaning + fmt::format("; auto: by a small pilot, until what is missing is less than --error "
-                                    "(default: {}) of the light, at most {}",
-                                    kDefaultTailShare, kMostAutoBounces),
-        [&settings, automatic](std::string_view option, std::string_view text) {
-            if (automatic != nullptr) *automatic = text == "auto";
-            if (automatic == nullptr || !*automatic)
-                settings.bounces = parseCount32(option, text, 0, kMaxBounces);
-        });
-    addValue(app, "--seed", "N", "Same seed, same picture, bit for bit (default: 0)",
-             [&settings](std::string_view option, std::string_view text) {
-                 settings.seed = parseCount32(option, text, 0, kMaxCount32);
-             });
-}
-
-/// How the integral is sampled: every choice has the same mean, and each its own noise and cost.
-void addSampling(CLI::App& app, RenderSettings& settings) {
-    const std::string group = "Sampling (same mean, other noise)";
-    const auto add = [&app, &group](const std::string& name, const std::string& type,
-                                    const std::string& meaning, auto& value, auto parse) {
-        addValue(app, name, type, meaning, [&value, parse](std::string_view option, std::string_view text) {
-            value = parse(option, text);
-        })->group(group);
-    };
-    add("--direct", "HOW",
-        "Direct light by mis (lights and scattering combined), hemisphere (scattering alone) or area (lights "
-        "alone) (default: mis)",
-        settings.direct, parseChoice<DirectLight>);
-    add("--mis", "HOW", "Weights of mis: power or balance heuristic (default: power)", settings.mis,
-        parseChoice<MisHeuristic>);
-    add("--lights", "HOW",
-        "Pick one of many lights by tree (near and facing first), power or uniform (default: tree)",
-        settings.lights, parseChoice<LightChoice>);
-    add("--environment-sampling", "HOW",
-        "Draw a direction to the environment by inversion, alias or rejection (default: inversion)",
-        settings.environment_sampling, parseChoice<EnvironmentSampling>);
-    add("--sampler", "HOW",
-        "Numbers from sobol (Owen-scrambled), blue (errors spread as blue noise, for few samples) or random "
-        "(default: sobol)",
-        settings.sampler, parseChoice<Sequence>);
-    app.add_flag("--adaptive", settings.adaptive,
-                 "Draw more samples where the noise is; --spp is then the mean over the pixels")
-        ->group(group);
-}
-
-/// Shortcuts that change the picture's mean; the report says by how much.
-void addBiased(CLI::App& app, RenderSettings& settings) {
-    const std::string group = "Biased shortcuts (the report says what they take)";
-    addValue(app, "--clamp", "LIMIT",
-             "Cut what one path finds after two or more scatterings down to this, in cd/m^2",
-             [&settings](std::string_view option, std::string_view text) {
-                 settings.clamp = parsePositiveFloat(option, text);
-             })
-        ->group(group);
-    app.add_flag("--regularise", settings.regularise, "Widen glossy lobes behind a path's first scattering")
-        ->group(group);
-}
-
-void addExpert(CLI::App& app, RenderSettings& settings, QueueUse& queues) {
-    const std::string group = "Expert options";
-    addValue(app, "--roulette", "BOUNCE",
-             "First bounce that may end a path by chance, keeping the mean (default: 3)",
-             [&settings](std::string_view option, std::string_view text) {
-                 settings.roulette_start = parseCount32(option, text, 0, kMaxCount32);
-             })
-        ->group(group);
-    addValue(app, "--first-sample", "N",
-             "Index of the first sample: ranges rendered apart merge to the whole (default: 0)",
-             [&settings](std::string_view option, std::string_view text) {
-                 settings.first_sample = parseCount32(option, text, 0, kMaxCount32 - 1);
-             })
-        ->group(group);
-    app.add_flag("--all-effects", settings.all_effects,
-                 "Compile every effect, whether the scene calls for it or not")
-        ->group(group);
-    addValue(app, "--bvh", "QUALITY",
-             "How well the BVH is built: fast, balanced or best; better trees take longer to build "
-             "(default: balanced)",
-             [&settings](std::string_view option, std::string_view text) {
-                 settings.bvh_quality = parseChoice<BvhQuality>(option, text);
-             })
-        ->group(group);
+/// One of the table, which has its name, help and parser.
+CLI::Option* addSetting(CLI::App& app, const Setting& setting, RunSettings& run) {
+    const std::string option(setting.option);
+    const auto take = [&setting, &run](const std::string& text) { setting.set(run, text); };
+    if (!setting.placeholder.empty())
+        return app.add_option_function<std::string>(option, take, setting.meaning)
+            ->type_name(std::string(setting.placeholder));
     // A flag, so that a value stands behind a "=" and a scene may follow it.
-    const std::string queues_meaning =
-        "Follow paths by small kernels with queues between them instead of one kernel, the same samples: "
-        "--queues=on, off or auto, where it pays (default: auto)";
-    app.add_flag("--queues{on}", queues_meaning)
-        ->each([&queues](const std::string& text) { queues = parseChoice<QueueUse>("--queues", text); })
-        ->group(group);
-    app.add_flag("--flatten-instances", settings.flatten_instances,
-                 "Store every instance of a mesh as triangles of its own")
-        ->group(group);
+    if (!setting.implied.empty())
+        return app.add_flag(fmt::format("{}{{{}}}", option, setting.implied), setting.meaning)->each(take);
+    return app.add_flag_callback(
+        option, [take] { take("yes"); }, setting.meaning);
+}
+
+void addSettings(CLI::App& app, std::span<const Setting> table, SettingGroup group, RunSettings& run) {
+    const std::string title(titleOf(group));
+    for (const Setting& setting : table) {
+        if (setting.group != group) continue;
+        CLI::Option* added = addSetting(app, setting, run);
+        if (!title.empty()) added->group(title);
+    }
 }
 
 void addRender(CLI::App& app, RenderOptions& options) {
@@ -197,24 +109,12 @@ void addRender(CLI::App& app, RenderOptions& options) {
            "Where the picture goes, .png or .exr; may be repeated (default: <scene name>.png)")
         ->allow_extra_args(false)
         ->type_name("FILE");
-    addLook(app, options.size, options.exposure, options.tonemap, options.device,
-            "height 540, width by the camera, 960x540 if it does not say");
-    addValue(
-        app, "--spp", "N",
-        fmt::format("Samples per pixel (default: {} unless --time or --error is given)", kDefaultSamples),
-        [&options](std::string_view option, std::string_view text) {
-            options.samples = parseCount32(option, text, 1, kMaxCount32);
-        });
-    addValue(app, "--time", "SECONDS", "Stop after that many seconds of rendering",
-             [&options](std::string_view option, std::string_view text) {
-                 options.seconds = parsePositive(option, text);
-             });
-    addValue(app, "--error", "REL",
-             "Stop at that estimated relative error (square root of relMSE); 0.01 is a clean picture",
-             [&options](std::string_view option, std::string_view text) {
-                 options.error = parsePositive(option, text);
-             });
-    addTransport(app, options.settings, &options.auto_bounces);
+    const std::span<const Setting> table = settingsTable();
+    addSize(app, options.size, "height 540, width by the camera, 960x540 if it does not say");
+    addSettings(app, table, SettingGroup::look, options.run);
+    addDevice(app, options.device);
+    addSettings(app, table, SettingGroup::stop, options.run);
+    addSettings(app, table, SettingGroup::transport, options.run);
     addValue(app, "--aov", "LIST",
              "Layers for .exr outputs: all, or from albedo,normal,depth,motion,variance,sampleCount,bounces",
              [&options](std::string_view option, std::string_view text) {
@@ -223,15 +123,17 @@ void addRender(CLI::App& app, RenderOptions& options) {
     addValue(app, "--report", "FILE", "Write what was done and what it cost as JSON",
              [&options](std::string_view, std::string_view text) { options.report = text; });
     app.add_flag("--quiet", options.quiet, "Say nothing but errors");
-    addSampling(app, options.settings);
-    addBiased(app, options.settings);
-    addExpert(app, options.settings, options.queues);
+    for (const SettingGroup group : {SettingGroup::sampling, SettingGroup::biased, SettingGroup::expert})
+        addSettings(app, table, group, options.run);
 }
 
 void addView(CLI::App& app, ViewOptions& options) {
     addSource(app, options.source);
-    addLook(app, options.size, options.exposure, options.tonemap, options.device, "as for render");
-    addTransport(app, options.settings, nullptr);
+    const std::span<const Setting> table = viewerSettingsTable();
+    addSize(app, options.size, "as for render");
+    addSettings(app, table, SettingGroup::look, options.run);
+    addDevice(app, options.device);
+    addSettings(app, table, SettingGroup::transport, options.run);
     addValue(app, "--frames", "N", "Close after N frames (default: when the window is closed)",
              [&options](std::string_view option, std::string_view text) {
                  options.frames = parseCount(option, text, 1, std::numeric_limits<std::uint64_t>::max());
@@ -258,7 +160,8 @@ void addBench(CLI::App& app, BenchOptions& options) {
                  options.runs = parseCount32(option, text, 1, 1000);
              });
     addValue(app, "--quality", "CHOICE",
-             "How well the BVH is built: fast, balanced or best (default: balanced)",
+             fmt::format("How well the BVH is built: {} (default: {})", listOf<BvhQuality>(),
+                         nameOf(options.quality)),
              [&options](std::string_view option, std::string_view text) {
                  options.quality = parseChoice<BvhQuality>(option, text);
              });
@@ -304,9 +207,10 @@ void checkTogether(const RenderOptions& options) {
         throw InputError(
             "--aov bounces: the layers are stored in .exr files and summed up in the report: add -o FILE.exr "
             "or --report FILE");
-    if (options.samples && *options.samples > kMaxCount32 - options.settings.first_sample)
+    const RunSettings& run = options.run;
+    if (run.samples && *run.samples > kMostSamples - run.render.first_sample)
         throw InputError(fmt::format("--first-sample {} and --spp {}: sample indices end at {}",
-                                     options.settings.first_sample, *options.samples, kMaxCount32));
+                                     run.render.first_sample, *run.samples, kMostSamples));
 }
 
 }  // namespace
@@ -357,8 +261,7 @@ Command parseCommandLine(int argument_count, const char* const* arguments) {
         throw InputError(
             "a subcommand is needed: render, view, info, bench, devices or compare (see 'licht --help')");
     checkTogether(render);
-    render.settings.orders = render.layers.orders;
-    render.settings.blue_bits = blueBitsFor(render.samples);
+    render.run.render.orders = render.layers.orders;
     return render;
 }
 

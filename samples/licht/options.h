@@ -1,6 +1,6 @@
 #pragma once
-// What each subcommand can be told, and the parsers of option values. A parser names the option, the value
-// and what is allowed.
+// What each subcommand can be told, and the parsers of the values that are no settings of a run
+// (settings/parse.h has the others).
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -8,16 +8,14 @@
 #include <string_view>
 #include <vector>
 
-#include "licht/bvh/bvh.h"
+#include "licht/settings/parse.h"
 #include "licht/settings/settings.h"
 
 namespace licht {
 
 inline constexpr std::uint32_t kMaxPictureSide = 16384;
 inline constexpr std::uint64_t kMaxPicturePixels = std::uint64_t{1} << 27U;
-inline constexpr std::uint32_t kMaxBounces = 65535;
-inline constexpr std::uint32_t kDefaultSamples =
-    64;  ///< per pixel, where neither time nor error says when to stop
+inline constexpr double kWidestSun = 180.0;  ///< degrees
 
 /// Which scene, seen how, lit by what. Shared by render and view.
 struct SceneRequest {
@@ -39,16 +37,9 @@ struct Layers {
 
 struct RenderOptions {
     SceneRequest source;
-    QueueUse queues = QueueUse::automatic;
+    RunSettings run;                             ///< size and aovs are filled in from the fields beside it
     std::vector<std::filesystem::path> outputs;  ///< .png and .exr; empty: "<scene name>.png"
     std::optional<uvec2> size;
-    std::optional<std::uint32_t> samples;
-    std::optional<double> seconds;
-    std::optional<double> error;
-    bool auto_bounces = false;       ///< a pilot chooses settings.bounces
-    RenderSettings settings;         ///< size and aovs are filled in from the fields beside it
-    std::optional<double> exposure;  ///< EV; none: the scene's
-    Tonemap tonemap = Tonemap::neutral;
     Layers layers;
     std::string device;
     std::optional<std::filesystem::path> report;
@@ -67,7 +58,7 @@ struct BenchOptions {
     SceneRequest source;
     std::optional<uvec2> size;
     std::uint32_t runs = kDefaultBenchRuns;
-    BvhQuality quality = BvhQuality::balanced;
+    BvhQuality quality = RenderSettings{}.bvh_quality;
     std::string device;
     std::optional<std::filesystem::path> json;
     bool quiet = false;  ///< no progress
@@ -85,10 +76,8 @@ struct CompareOptions {
 
 struct ViewOptions {
     SceneRequest source;
+    RunSettings run;
     std::optional<uvec2> size;
-    std::optional<double> exposure;
-    Tonemap tonemap = Tonemap::neutral;
-    RenderSettings settings;
     std::string device;
     std::uint64_t frames = 0;  ///< 0: until the window is closed
 };
@@ -97,28 +86,8 @@ struct ViewOptions {
 std::uint64_t parseTriangles(std::string_view option, std::string_view text);
 /// "960x540": each side 1 to kMaxPictureSide, at most kMaxPicturePixels together.
 uvec2 parseSize(std::string_view option, std::string_view text);
-/// A whole number from lowest to highest.
-std::uint64_t parseCount(std::string_view option, std::string_view text, std::uint64_t lowest,
-                         std::uint64_t highest);
-/// The same for the 32-bit settings.
-std::uint32_t parseCount32(std::string_view option, std::string_view text, std::uint32_t lowest,
-                           std::uint32_t highest);
-/// Degrees, 0 to 180.
-double parseAngle(std::string_view option, std::string_view text);
-/// Finite and greater than zero.
-double parsePositive(std::string_view option, std::string_view text);
-/// The same, as a float.
-float parsePositiveFloat(std::string_view option, std::string_view text);
-/// An exposure value in stops, -64 to 64: beyond, 2^EV and a float radiance soon have no common range.
-double parseExposure(std::string_view option, std::string_view text);
 /// "R,G,B": finite, not negative.
 vec3 parseColour(std::string_view option, std::string_view text);
-/// One of what can be chosen by name (settings/choices.h).
-template <typename Choice>
-Choice parseChoice(std::string_view option, std::string_view text);
-/// log2 of the samples that sampler blue spreads well together, for a picture of that many per pixel; 4 where
-/// that is not known.
-std::uint32_t blueBitsFor(std::optional<std::uint32_t> samples);
 /// "albedo,normal,..." or "all".
 Layers parseLayers(std::string_view option, std::string_view text);
 /// A path that ends in .png or .exr.

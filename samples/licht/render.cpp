@@ -1,20 +1,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
-#include <cmath>
 #include <cstdio>
 #include <optional>
 #include <span>
 
+#include "licht/core/clock.h"
 #include "licht/core/file.h"
-#include "licht/gpu/lanes.h"
 #include "licht/image/files.h"
 #include "licht/render/renderer.h"
+#include "licht/run/plan.h"
 #include "licht/run/process_clock.h"
-#include "licht/run/queue_choice.h"
 #include "licht/run/render_loop.h"
-#include "licht/shared/queue_records.h"
 #include "samples/licht/commands.h"
 #include "samples/licht/exr_layers.h"
 #include "samples/licht/interrupt.h"
@@ -33,18 +30,6 @@ void checkWritable(const std::filesystem::path& path) {
 
 bool isExr(const std::filesystem::path& path) {
     return lowerCase(path.extension().string()) == ".exr";
-}
-
-StopRules stopRules(const RenderOptions& options) {
-    StopRules rules;
-    rules.samples = std::numeric_limits<std::uint32_t>::max() - options.settings.first_sample;
-    if (options.samples)
-        rules.samples = *options.samples;
-    else if (!options.seconds && !options.error)
-        rules.samples = kDefaultSamples;
-    rules.seconds = options.seconds;
-    rules.error = options.error;
-    return rules;
 }
 
 /// Display values without alpha.
@@ -84,23 +69,12 @@ void describeRun(RenderReport& report, const gpu::Device& device, const Renderer
     }
 }
 
-/// What must be known before the picture is begun: how deep to follow the light, and what a shortcut takes.
-void runPilots(const RenderOptions& options, gpu::Device& device, const Scene& scene, const Camera& camera,
-               RenderReport& report) {
-    if (options.auto_bounces) {
-        const std::uint32_t most =
-            options.queues == QueueUse::on ? std::min(kMostQueueBounces, kMostAutoBounces) : kMostAutoBounces;
-        report.depth = chooseDepth(device, scene, camera, report.settings,
-                                   options.error.value_or(kDefaultTailShare), most);
-        report.settings.bounces = report.depth->bounces;
-        if (!report.depth->reached && !options.quiet)
-            fmt::print(stderr,
-                       "licht: warning: --bounces auto: no depth up to {} leaves less than {} of the light; "
-                       "{} are followed\n",
-                       most, report.depth->wanted_share, report.depth->bounces);
-    }
-    if (options.settings.regularise)
-        report.regularisation = measureRegularisation(device, scene, camera, report.settings);
+/// The pilot found no depth that spends the light.
+void warnOfDepth(const DepthChoice& depth) {
+    fmt::print(stderr,
+               "licht: warning: --bounces auto: no depth up to {} leaves less than {} of the light; {} are "
+               "followed\n",
+               depth.bounces, depth.wanted_share, depth.bounces);
 }
 
 /// What makes a picture doubtful is said, not only reported.
@@ -125,18 +99,15 @@ int render(const RenderOptions& options) {
     for (const auto& output : options.outputs) checkWritable(output);
     if (options.report) checkWritable(*options.report);
 
-    const auto load_start = std::chrono::steady_clock::now();
+    const Clock::time_point load_start = Clock::now();
     const NamedScene source = loadScene(options.source);
     const Shot shot = chooseShot(source, options.source.camera, options.size);
     RenderReport report;
-    report.load_seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - load_start).count();
+    report.load_seconds = secondsSince(load_start);
     report.scene = options.source.scene;
     report.camera = shot.camera_name;
     report.size = shot.size;
-    report.settings = options.settings;
-    report.settings.size = shot.size;
-    report.settings.aovs = options.layers.aovs;
+    report.asked = options.run;
     report.notes = source.scene.notes;
     report.outputs = options.outputs;
     if (report.outputs.empty()) {
@@ -147,31 +118,33 @@ int render(const RenderOptions& options) {
     gpu::DeviceOptions device_options;
     device_options.device = options.device;
     gpu::Device device(device_options);
-    runPilots(options, device, source.scene, shot.camera, report);
-    report.settings.queues =
-        chooseQueues(options.queues, report.settings, stopRules(options), raysPerThread(device) > 1);
-    Renderer renderer(device, source.scene, shot.camera, report.settings);
+    RunSettings run = options.run;
+    run.render.size = shot.size;
+    run.render.aovs = options.layers.aovs;
+    const RunPlan plan = planRun(device, source.scene, shot.camera, run);
+    report.settings = plan.settings;
+    report.depth = plan.depth;
+    report.regularisation = plan.regularisation;
+    if (plan.depth && !plan.depth->reached && !options.quiet) warnOfDepth(*plan.depth);
+    Renderer renderer(device, source.scene, shot.camera, plan.settings);
     if (!options.quiet) printWarnings(source.scene);
 
     InterruptWatch interrupt;
     std::optional<ProgressLine> progress(std::in_place, stderr, options.quiet);
-    const StopRules rules = stopRules(options);
     const LoopHooks hooks{[&interrupt] { return interrupt.asked(); },
                           [&progress](const ProgressState& state) { progress->show(state); }};
-    const LoopResult result = options.settings.adaptive
-                                  ? renderAdaptively(renderer, rules, hooks)
-                                  : renderUntil(renderer, report.settings, rules, hooks);
+    const LoopResult result = renderUntil(renderer, plan.settings, plan.rules, hooks);
     progress.reset();
     interrupt.shield();
 
     describeRun(report, device, renderer, result);
-    const double exposure = options.exposure.value_or(source.scene.default_exposure);
+    const double exposure = options.run.exposure.value_or(source.scene.default_exposure);
     for (const auto& output : report.outputs) {
         if (isExr(output))
             writeExr(output, exrPicture(result.film, options.layers, reportAttributes(report)));
         else
             writePng(output,
-                     opaquePicture(renderer.readDisplay(options.tonemap, static_cast<float>(exposure))));
+                     opaquePicture(renderer.readDisplay(options.run.tonemap, static_cast<float>(exposure))));
         if (!options.quiet) fmt::print("wrote {} ({}x{})\n", output.string(), shot.size.x, shot.size.y);
     }
     report.statistics = renderer.statistics();

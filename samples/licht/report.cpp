@@ -4,9 +4,11 @@
 #include <sys/resource.h>
 
 #include <nlohmann/json.hpp>
+#include <type_traits>
+#include <variant>
 
 #include "licht/render/statistics.h"
-#include "licht/settings/choices.h"
+#include "licht/settings/settings_table.h"
 #include "samples/licht/series_report.h"
 
 namespace licht {
@@ -28,13 +30,40 @@ ordered_json passesJson(const RenderStatistics& statistics) {
     return passes;
 }
 
-ordered_json samplingJson(const RenderSettings& settings) {
-    ordered_json sampling{{"direct", nameOf(settings.direct)},
-                          {"mis", nameOf(settings.mis)},
-                          {"lights", nameOf(settings.lights)},
-                          {"environment_sampling", nameOf(settings.environment_sampling)},
-                          {"sampler", nameOf(settings.sampler)}};
-    if (settings.sampler == Sequence::blue) sampling["blue_samples"] = std::uint64_t{1} << settings.blue_bits;
+ordered_json valueJson(const SettingValue& value) {
+    return std::visit(
+        [](const auto& known) -> ordered_json {
+            if constexpr (std::is_same_v<std::decay_t<decltype(known)>, std::monostate>)
+                return nullptr;
+            else
+                return known;
+        },
+        value);
+}
+
+/// All settings as they were asked for, under their options' names.
+ordered_json askedJson(const RunSettings& asked) {
+    ordered_json json;
+    for (const Setting& setting : settingsTable())
+        json[reportKeyOf(setting)] = valueJson(setting.value(asked));
+    return json;
+}
+
+/// What a setting was in the end: a depth may have been chosen.
+RunSettings inTheEnd(const RenderReport& report) {
+    RunSettings run = report.asked;
+    run.render = report.settings;
+    run.auto_bounces = false;
+    return run;
+}
+
+ordered_json samplingJson(const RenderReport& report) {
+    ordered_json sampling;
+    for (const Setting& setting : settingsTable())
+        if (setting.group == SettingGroup::sampling && !setting.names.empty())
+            sampling[reportKeyOf(setting)] = valueJson(setting.value(inTheEnd(report)));
+    if (report.settings.sampler == Sequence::blue)
+        sampling["blue_samples"] = std::uint64_t{1} << report.settings.blue_bits;
     return sampling;
 }
 
@@ -61,11 +90,12 @@ std::string reportJson(const RenderReport& report) {
     json["driver"] = report.driver;
     json["size"] = {report.size.x, report.size.y};
     json["spp"] = report.samples;
+    json["settings"] = askedJson(report.asked);
     json["first_sample"] = report.settings.first_sample;
     json["seed"] = report.settings.seed;
     json["bounces"] = report.settings.bounces;
     json["bounces_auto"] = depthJson(report);
-    json["sampling"] = samplingJson(report.settings);
+    json["sampling"] = samplingJson(report);
     json["adaptive"] = adaptiveJson(report);
     json["declared_bias"] = biasJson(report);
     json["queues"] = report.settings.queues;
@@ -106,24 +136,21 @@ std::string reportJson(const RenderReport& report) {
 
 std::vector<std::pair<std::string, std::string>> reportAttributes(const RenderReport& report) {
     const std::string bias = biasLine(report);
-    return {{"licht.version", LICHT_VERSION},
-            {"licht.scene", report.scene},
-            {"licht.camera", report.camera},
-            {"licht.spp", fmt::format("{}", report.samples)},
-            {"licht.firstSample", fmt::format("{}", report.settings.first_sample)},
-            {"licht.seed", fmt::format("{}", report.settings.seed)},
-            {"licht.bounces", fmt::format("{}", report.settings.bounces)},
-            {"licht.direct", std::string(nameOf(report.settings.direct))},
-            {"licht.mis", std::string(nameOf(report.settings.mis))},
-            {"licht.lights", std::string(nameOf(report.settings.lights))},
-            {"licht.environmentSampling", std::string(nameOf(report.settings.environment_sampling))},
-            {"licht.sampler", std::string(nameOf(report.settings.sampler))},
-            {"licht.adaptive", report.settings.adaptive ? "yes" : "no"},
-            {"licht.declaredBias", bias.empty() ? "none" : bias},
-            {"licht.device", report.device},
-            {"licht.driver", report.driver},
-            {"licht.relativeError", report.error >= 0.0 ? fmt::format("{:.6g}", report.error) : "unknown"},
-            {"licht.seconds", fmt::format("{:.3f}", report.render_seconds)}};
+    std::vector<std::pair<std::string, std::string>> attributes{
+        {"licht.version", LICHT_VERSION},
+        {"licht.scene", report.scene},
+        {"licht.camera", report.camera},
+        {"licht.spp", fmt::format("{}", report.samples)},
+        {"licht.declaredBias", bias.empty() ? "none" : bias},
+        {"licht.device", report.device},
+        {"licht.driver", report.driver},
+        {"licht.relativeError", report.error >= 0.0 ? fmt::format("{:.6g}", report.error) : "unknown"},
+        {"licht.seconds", fmt::format("{:.3f}", report.render_seconds)}};
+    const RunSettings run = inTheEnd(report);
+    for (const Setting& setting : settingsTable())
+        if ((setting.uses & kInFile) != 0)
+            attributes.emplace_back(attributeNameOf(setting), textOf(setting.value(run)));
+    return attributes;
 }
 
 std::string reportLine(const RenderReport& report) {

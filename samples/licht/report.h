@@ -25,7 +25,8 @@ struct RenderReport {
     std::string camera;
     uvec2 size{0};
     std::uint32_t samples = 0;
-    RenderSettings settings;
+    RunSettings asked;
+    RenderSettings settings;  ///< as they were in the end
     Stop stopped_by = Stop::none;
     double load_seconds = 0.0;
     double first_image_seconds = 0.0;  ///< from process start

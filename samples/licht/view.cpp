@@ -4,9 +4,8 @@
 #include <limits>
 
 #include "licht/core/error.h"
-#include "licht/film/error_estimate.h"
 #include "licht/render/renderer.h"
-#include "licht/run/stop.h"
+#include "licht/run/accumulation.h"
 #include "licht/settings/choices.h"
 #include "licht/window/swapchain.h"
 #include "licht/window/window.h"
@@ -21,30 +20,11 @@ constexpr double kSecondsBetweenTitles = 0.5;
 constexpr double kSecondsAsleep =
     0.1;  ///< between looks at a window that cannot be drawn on, or a picture that is done
 
-/// Since the picture last started anew.
-struct Accumulation {
-    Accumulation(double seconds, const RenderSettings& settings)
-        : started(seconds), estimate(settings.sampler, settings.first_sample) {}
-    double started;  ///< seconds of the window's clock
-    Advance advance;
-    ErrorEstimate estimate;
-    ErrorSchedule schedule{std::nullopt};
-};
-
-std::string title(const std::string& scene, const Accumulation& accumulation, const ViewState& state) {
-    const Advance& advance = accumulation.advance;
+std::string title(const std::string& scene, const Advance& advance, const ViewState& state) {
     std::string text = fmt::format("{} - {} samples, {:.1f} ms each", scene, advance.samples,
                                    1000.0 * advance.seconds / std::max(advance.samples, 1U));
     if (advance.error >= 0.0) text += fmt::format(", error {:.3g}", advance.error);
     return text + fmt::format(" - {}, {:+.2f} EV - Licht", nameOf(state.tonemap), state.exposure);
-}
-
-void estimateError(Renderer& renderer, const Window& window, Accumulation& accumulation) {
-    renderer.finish();
-    const double before = window.seconds();
-    accumulation.advance.error = accumulation.estimate.look(renderer.readFilm());
-    accumulation.advance.error_samples = renderer.samples();
-    accumulation.schedule.checked(accumulation.advance, window.seconds() - before);
 }
 
 }  // namespace
@@ -61,15 +41,15 @@ int view(const ViewOptions& options) {
     device_options.device = options.device;
     window.prepare(device_options);
     gpu::Device device(device_options);
-    RenderSettings settings = options.settings;
+    RenderSettings settings = options.run.render;
     settings.size = shot.size;
     Renderer renderer(device, source.scene, shot.camera, settings);
     Swapchain swapchain(device, window);
 
     const ViewState start{OrbitCamera(shot.camera, sceneBounds(source.scene)),
-                          options.exposure.value_or(source.scene.default_exposure), options.tonemap};
+                          options.run.exposure.value_or(source.scene.default_exposure), options.run.tonemap};
     ViewState state = start;
-    Accumulation accumulation(window.seconds(), settings);
+    Accumulation accumulation(renderer, settings);
     double titled = 0.0;
     InputState input;
     for (std::uint64_t frame = 0; !window.shouldClose() && (options.frames == 0 || frame < options.frames);
@@ -90,19 +70,15 @@ int view(const ViewOptions& options) {
             settings.size = pixels;
         }
         renderer.setCamera(state.orbit.camera());
-        if (renderer.samples() < samples_before) accumulation = Accumulation(window.seconds(), settings);
+        if (renderer.samples() < samples_before) accumulation.restart();
 
         if (!full) renderer.renderSample();
         swapchain.present(renderer.displayImage(), [&](gpu::Commands& commands) {
             renderer.recordDisplay(commands, state.tonemap, static_cast<float>(state.exposure));
         });
-        Advance& advance = accumulation.advance;
-        advance.samples = renderer.samples();
-        advance.seconds = window.seconds() - accumulation.started;
-        if (accumulation.schedule.due(advance.samples, advance.seconds))
-            estimateError(renderer, window, accumulation);
+        const Advance& advance = accumulation.look();
         if (window.seconds() - titled >= kSecondsBetweenTitles) {
-            window.setTitle(title(source.name, accumulation, state));
+            window.setTitle(title(source.name, advance, state));
             titled = window.seconds();
         }
     }

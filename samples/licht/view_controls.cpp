@@ -1,9 +1,8 @@
 #include "samples/licht/view_controls.h"
 
-#include <array>
 #include <cmath>
 
-#include "licht/settings/settings.h"
+#include "licht/settings/choices.h"
 
 namespace licht {
 namespace {
@@ -12,14 +11,14 @@ constexpr float kRadiansPerHeight = kPi;  ///< a drag over the window's height i
 constexpr float kFactorPerNotch = 0.9F;   ///< of the distance, for a notch of the wheel
 constexpr float kStep = 0.1F;             ///< of the distance, for a key
 constexpr double kExposureStep = 0.25;    ///< EV
-constexpr std::array kTonemaps{Tonemap::none, Tonemap::neutral, Tonemap::agx, Tonemap::aces};
 
 // The plus sign shares its key with = on some keyboards and stands alone on others.
 constexpr int kKeypadMinus = 333;
 constexpr int kKeypadPlus = 334;
 
 Tonemap next(Tonemap curve) {
-    return kTonemaps[(static_cast<std::size_t>(curve) + 1) % kTonemaps.size()];
+    const auto curves = choicesOf<Tonemap>();
+    return curves[(static_cast<std::size_t>(curve) + 1) % curves.size()].choice;
 }
 
 }  // namespace

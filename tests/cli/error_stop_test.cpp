@@ -9,6 +9,7 @@
 #include "licht/measure/metrics.h"
 #include "licht/measure/statistics.h"
 #include "licht/render/renderer.h"
+#include "licht/run/accumulation.h"
 #include "licht/run/render_loop.h"
 #include "support/gpu_test.h"
 #include "support/render_test.h"
@@ -71,18 +72,12 @@ TEST_P(ErrorStop, KeepsWhatIsPromised) {
 TEST_P(ErrorStop, ComesSoonerWithEvenSamples) {
     Renderer renderer(gpu::testDevice(), litFloor(), litFloorCamera(), settings_);
     const bool even = GetParam() != Sequence::random;
-    ErrorEstimate estimate(GetParam(), 0);
-    ErrorSchedule schedule(kWanted, even);
-    Advance advance;
-    while (decideStop(rules_, advance) == Stop::none) {
+    Accumulation picture(renderer, settings_, kWanted, [&renderer] { return 1e-6 * renderer.samples(); });
+    while (decideStop(rules_, picture.advance()) == Stop::none) {
         renderer.renderSample();
-        advance.samples = renderer.samples();
-        advance.seconds = 1e-6 * advance.samples;
-        if (!schedule.due(advance.samples, advance.seconds)) continue;
-        advance.error = estimate.look(renderer.readFilm());
-        advance.error_samples = advance.samples;
-        schedule.checked(advance, 0.0);
+        picture.look();
     }
+    const Advance& advance = picture.advance();
     EXPECT_EQ(decideStop(rules_, advance), Stop::error);
     const double independent = std::pow(relativeError(reference()) / kWanted, 2.0) * reference().samples;
     if (even)
@@ -90,6 +85,49 @@ TEST_P(ErrorStop, ComesSoonerWithEvenSamples) {
     else
         EXPECT_NEAR(advance.samples, independent, 0.05 * independent);
     expectKept(renderer.readFilm());
+}
+
+// As the viewer does when its camera moves.
+TEST(Accumulation, ForgetsWhatWasBeforeARestart) {
+    RenderSettings settings;
+    settings.size = uvec2(16);
+    settings.bounces = 1;
+    Camera camera = litFloorCamera();
+    Renderer renderer(gpu::testDevice(), litFloor(), camera, settings);
+    double seconds = 0.0;
+    Accumulation picture(renderer, settings, std::nullopt, [&seconds] { return seconds; });
+    const auto draw = [&](std::uint32_t samples) {
+        for (std::uint32_t i = 0; i < samples; ++i) {
+            renderer.renderSample();
+            seconds += 1.0;
+            picture.look();
+        }
+    };
+    draw(8);
+    EXPECT_EQ(picture.advance().samples, 8U);
+    EXPECT_EQ(picture.advance().seconds, 8.0);
+    EXPECT_EQ(picture.advance().error_samples, 8U);
+    EXPECT_GT(picture.advance().error, 0.0);
+
+    camera.world_from_view = glm::translate(camera.world_from_view, vec3(0.0F, 0.0F, 0.5F));
+    renderer.setCamera(camera);
+    picture.restart();
+    EXPECT_EQ(picture.advance().samples, 0U);
+    EXPECT_LT(picture.advance().error, 0.0);
+    draw(8);
+    EXPECT_EQ(picture.advance().seconds, 8.0);
+    const double seen = picture.advance().error;
+
+    // The same error as of a picture that never was another.
+    Renderer other(gpu::testDevice(), litFloor(), camera, settings);
+    ErrorEstimate estimate(settings.sampler, settings.first_sample);
+    double expected = -1.0;
+    for (std::uint32_t i = 1; i <= 8; ++i) {
+        other.renderSample();
+        if (i >= 2) expected = estimate.look(other.readFilm());
+    }
+    EXPECT_EQ(seen, expected);
+    EXPECT_EQ(picture.finish().samples, 8U);
 }
 
 INSTANTIATE_TEST_SUITE_P(Samplers, ErrorStop,

@@ -46,12 +46,6 @@ TEST(BlueBits, CoverTheSamplesOfAPixel) {
     EXPECT_EQ(blueBitsFor(4294967295U), 10U);
 }
 
-TEST(ParseExposure, TakesBothSigns) {
-    EXPECT_DOUBLE_EQ(parseExposure("--exposure", "-2.5"), -2.5);
-    for (const char* bad : {"", "65", "-65", "nan", "inf"})
-        EXPECT_THROW(parseExposure("--exposure", bad), InputError) << bad;
-}
-
 TEST(ParseColour, TakesThreeNumbers) {
     EXPECT_EQ(parseColour("--background", "0,0.5,1e3"), vec3(0.0F, 0.5F, 1000.0F));
     for (const char* bad : {"", "1", "1,1", "1,1,1,1", "1,,1", "1,1,-1", "1,1,inf", "1,1,1e40", "a,b,c"})

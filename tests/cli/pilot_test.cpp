@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "licht/run/plan.h"
 #include "licht/settings/settings.h"
 #include "samples/scenes/builtin.h"
 #include "support/gpu_test.h"
@@ -71,6 +72,45 @@ TEST(Regularisation, IsMeasuredOnPairs) {
     EXPECT_NE(measured.change.value, 0.0);
     EXPECT_GT(measured.change.standard_error, 0.0);
     EXPECT_LT(measured.change.standard_error, 1.0);
+}
+
+TEST(Plan, RulesFollowFromWhatIsAsked) {
+    RunSettings run;
+    run.render.first_sample = 10;
+    EXPECT_EQ(stopRules(run).samples, kDefaultSamples);
+    run.seconds = 2.0;
+    run.error = 0.5;
+    EXPECT_EQ(stopRules(run).samples, kMostSamples - 10) << "indices must not run out";
+    EXPECT_EQ(stopRules(run).seconds, 2.0);
+    EXPECT_EQ(stopRules(run).error, 0.5);
+    run.samples = 3;
+    EXPECT_EQ(stopRules(run).samples, 3U);
+}
+
+TEST(Plan, ChoosesWhatIsLeftOpen) {
+    const Scene furnace = *makeBuiltinScene("furnace");
+    RunSettings run;
+    run.render = small();
+    run.render.sampler = Sequence::blue;
+    run.samples = 32;
+    run.auto_bounces = true;
+    run.queues = QueueUse::on;
+    const RunPlan plan = planRun(gpu::testDevice(), furnace, furnace.cameras[0], run);
+    ASSERT_TRUE(plan.depth);
+    EXPECT_EQ(plan.settings.bounces, 6U) << "a hundredth of the light is left, by default";
+    EXPECT_EQ(plan.settings.blue_bits, 5U);
+    EXPECT_TRUE(plan.settings.queues);
+    EXPECT_FALSE(plan.regularisation);
+    run.auto_bounces = false;
+    run.error = 0.3;
+    run.queues = QueueUse::off;
+    run.render.regularise = true;
+    const RunPlan other = planRun(gpu::testDevice(), furnace, furnace.cameras[0], run);
+    EXPECT_FALSE(other.depth);
+    EXPECT_EQ(other.settings.bounces, run.render.bounces);
+    EXPECT_FALSE(other.settings.queues);
+    ASSERT_TRUE(other.regularisation);
+    EXPECT_EQ(other.regularisation->change.value, 0.0) << "nothing is glossy";
 }
 
 }  // namespace

@@ -1,0 +1,39 @@
+#include "licht/run/plan.h"
+
+#include <algorithm>
+
+#include "licht/gpu/lanes.h"
+#include "licht/run/queue_choice.h"
+#include "licht/shared/queue_records.h"
+
+namespace licht {
+
+StopRules stopRules(const RunSettings& run) {
+    StopRules rules;
+    rules.samples = kMostSamples - run.render.first_sample;
+    if (run.samples)
+        rules.samples = *run.samples;
+    else if (!run.seconds && !run.error)
+        rules.samples = kDefaultSamples;
+    rules.seconds = run.seconds;
+    rules.error = run.error;
+    return rules;
+}
+
+RunPlan planRun(gpu::Device& device, const Scene& scene, const Camera& camera, const RunSettings& run) {
+    RunPlan plan{run.render, stopRules(run), {}, {}};
+    plan.settings.blue_bits = blueBitsFor(run.samples);
+    if (run.auto_bounces) {
+        const std::uint32_t most =
+            run.queues == QueueUse::on ? std::min(kMostQueueBounces, kMostAutoBounces) : kMostAutoBounces;
+        plan.depth =
+            chooseDepth(device, scene, camera, plan.settings, run.error.value_or(kDefaultTailShare), most);
+        plan.settings.bounces = plan.depth->bounces;
+    }
+    if (run.render.regularise)
+        plan.regularisation = measureRegularisation(device, scene, camera, plan.settings);
+    plan.settings.queues = chooseQueues(run.queues, plan.settings, plan.rules, raysPerThread(device) > 1);
+    return plan;
+}
+
+}  // namespace licht

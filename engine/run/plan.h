@@ -1,0 +1,26 @@
+#pragma once
+// What a run is asked for leaves some things to be chosen; here they are.
+#include <optional>
+
+#include "licht/gpu/device.h"
+#include "licht/run/pilot.h"
+#include "licht/run/stop.h"
+#include "licht/scene/scene.h"
+#include "licht/settings/settings.h"
+
+namespace licht {
+
+/// Rules without a limit of samples but for the indices that are left, where time or error ends a run.
+StopRules stopRules(const RunSettings& run);
+
+struct RunPlan {
+    RenderSettings settings;  ///< for the Renderer
+    StopRules rules;
+    std::optional<DepthChoice> depth;           ///< where a pilot chose the bounces
+    std::optional<BiasMeasure> regularisation;  ///< where it is on
+};
+
+/// Sends the pilots that a run asks for, and chooses between queues and one kernel.
+RunPlan planRun(gpu::Device& device, const Scene& scene, const Camera& camera, const RunSettings& run);
+
+}  // namespace licht
