@@ -78,6 +78,10 @@ public:
     [[nodiscard]] std::uint64_t deviceBytes() const { return device_bytes_; }
     [[nodiscard]] std::uint64_t devicePeakBytes() const { return device_peak_bytes_; }
 
+    /// Programs compiled so far.
+    [[nodiscard]] std::uint64_t compiledPrograms() const { return compiled_programs_; }
+    void countCompiledProgram() { ++compiled_programs_; }
+
     /// Validation messages so far (warnings and errors). Tests demand none.
     [[nodiscard]] std::vector<std::string> validationMessages() const;
 
@@ -115,6 +119,7 @@ private:
     PFN_vkCmdEndDebugUtilsLabelEXT end_label_ = nullptr;
     std::uint64_t device_bytes_ = 0;
     std::uint64_t device_peak_bytes_ = 0;
+    std::uint64_t compiled_programs_ = 0;
     std::unique_ptr<Messages> messages_;
 };
 

@@ -154,6 +154,7 @@ Program Program::compute(Device& device, std::string name, Spirv shader, const S
                                    &program.pipeline_),
           fmt::format("compiling '{}'", program.name_));
     device.setName(VK_OBJECT_TYPE_PIPELINE, std::bit_cast<std::uint64_t>(program.pipeline_), program.name_);
+    device.countCompiledProgram();
     program.compile_seconds_ = secondsSince(start);
     return program;
 }
@@ -243,6 +244,7 @@ Program Program::raster(Device& device, std::string name, Spirv vertex, Spirv fr
                                     &program.pipeline_),
           fmt::format("compiling '{}'", program.name_));
     device.setName(VK_OBJECT_TYPE_PIPELINE, std::bit_cast<std::uint64_t>(program.pipeline_), program.name_);
+    device.countCompiledProgram();
     program.compile_seconds_ = secondsSince(start);
     return program;
 }

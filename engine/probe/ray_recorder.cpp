@@ -8,7 +8,7 @@
 #include "licht/core/error.h"
 #include "licht/gpu/commands.h"
 #include "licht/render/gbuffer.h"
-#include "licht/render/history.h"
+#include "licht/render/images.h"
 #include "licht/render/view.h"
 #include "licht/shared/choices.h"
 #include "licht/shared/constants.h"
@@ -73,14 +73,14 @@ std::vector<RayList> recordRays(gpu::Device& device, const GpuScene& scene, cons
     const gpu::SpecConstants constants = constantsOf(scene);
     const gpu::Program gbuffer = gbufferProgram(device, constants);
     const gpu::Program record = gpu::Program::compute(device, "record_rays", record_rays_comp, constants);
-    const History history(device, size, false);
+    const Images images(device, size, {});
     const gpu::Buffer frame_buffer(device, "frame", sizeof(FrameRecord), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
                                    gpu::Memory::host_write);
     const FrameRecord frame = frameOf(scene, camera, size);
     std::memcpy(frame_buffer.mapped(), &frame, sizeof(frame));
 
     std::vector<gpu::BoundResource> resources = scene.resources();
-    for (const gpu::BoundResource& r : history.resources()) resources.push_back(r);
+    for (const gpu::BoundResource& r : images.resources(0)) resources.push_back(r);
     resources.push_back({"FrameBlock", &frame_buffer});
     std::vector<gpu::Buffer> lists;
     for (const char* name : kListNames)
@@ -97,7 +97,7 @@ std::vector<RayList> recordRays(gpu::Device& device, const GpuScene& scene, cons
     for (push.first_row = 0; push.first_row < size.y; push.first_row += rows) {
         push.row_count = std::min(rows, size.y - push.first_row);
         commands.begin();
-        if (push.first_row == 0) recordGbuffer(commands, {gbuffer, gbuffer_bindings}, scene, history, push);
+        if (push.first_row == 0) recordGbuffer(commands, {gbuffer, gbuffer_bindings}, scene, images, push);
         commands.dispatch("record_rays", {record, record_bindings}, push, {size.x, push.row_count});
         commands.submit();
         commands.wait();

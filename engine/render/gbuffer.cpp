@@ -1,5 +1,6 @@
 #include "licht/render/gbuffer.h"
 
+#include "licht/render/pass_list.h"
 #include "licht/shared/index.h"
 #include "licht/spirv/gbuffer_frag.h"
 #include "licht/spirv/gbuffer_vert.h"
@@ -12,10 +13,10 @@ gpu::Program gbufferProgram(gpu::Device& device, const gpu::SpecConstants& const
 }
 
 void recordGbuffer(gpu::Commands& commands, const gpu::BoundProgram& program, const GpuScene& scene,
-                   const History& history, const SamplePush& push) {
-    gpu::ColorTarget hits{&history.gbuffer, {}};
+                   const Images& images, const SamplePush& push) {
+    gpu::ColorTarget hits{&images["gbuffer"], {}};
     hits.clear.uint32[0] = kNoIndex;
-    commands.draw("gbuffer", program, push, {std::span(&hits, 1), &history.depth},
+    commands.draw(passName(PassId::gbuffer), program, push, {std::span(&hits, 1), &images["depth"]},
                   [&](VkCommandBuffer recording) {
                       for (const Draw& draw : scene.draws()) {
                           vkCmdSetCullMode(recording, draw.cull);

@@ -1,14 +1,27 @@
 #pragma once
+#include <optional>
+
 #include "licht/gpu/program.h"
+#include "licht/on_device/gpu_scene.h"
+#include "licht/render/wavefront.h"
+#include "licht/settings/settings.h"
 
 namespace licht {
 
-/// Every program of a frame, specialised to what the scene calls for.
-struct Programs {
-    /// `layers`: compile the program of the extra layers too.
-    Programs(gpu::Device& device, const gpu::SpecConstants& constants, bool layers);
+/// What the programs of a frame are specialised to: what the scene calls for, and the settings.
+gpu::SpecConstants programConstants(const GpuScene& scene, const RenderSettings& settings);
 
-    gpu::Program gbuffer, path, accumulate, layers, tonemap;
+/// Every program of a frame, compiled once: pictures of all sizes use the same ones.
+struct Programs {
+    Programs(gpu::Device& device, const gpu::SpecConstants& constants, const RenderSettings& settings);
+
+    gpu::Program gbuffer;
+    std::uint32_t paths_per_thread;              ///< of the next
+    gpu::Program path;                           ///< one kernel for whole paths, or instead
+    std::optional<WavefrontPrograms> wavefront;  ///< where settings.queues
+    gpu::Program accumulate;
+    gpu::Program layers;  ///< where any are asked for
+    gpu::Program tonemap;
 };
 
 }  // namespace licht

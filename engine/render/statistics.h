@@ -1,10 +1,8 @@
 #pragma once
 #include <cstdint>
-#include <map>
-#include <string>
 #include <vector>
 
-#include "licht/gpu/commands.h"
+#include "licht/render/pass_list.h"
 
 namespace licht {
 
@@ -13,7 +11,7 @@ struct RenderStatistics {
     double upload_seconds = 0.0;
     double pipeline_seconds = 0.0;
     std::uint64_t geometry_bytes = 0;  ///< on the device: vertices, triangles, instances and the BVH
-    std::map<std::string, gpu::PassTime> passes;
+    PassTimes passes;
     std::uint64_t primary_rays = 0;  ///< pixels rasterised times samples
     std::uint64_t bounce_rays = 0;
     std::uint64_t shadow_rays = 0;

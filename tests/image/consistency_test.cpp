@@ -163,7 +163,9 @@ TEST(Effects, AbsentOnesOwnNoBuffers) {
 // lavapipe 22.3 compiles a program anew whenever a uniform that decides a branch might have changed (see
 // scene.glsl).
 TEST(Effects, ProgramsReadNoUniformBuffers) {
-    const Programs programs(gpu::testDevice(), {}, true);
+    RenderSettings settings;
+    settings.aovs.albedo = true;
+    const Programs programs(gpu::testDevice(), {}, settings);
     for (const gpu::Program* program :
          {&programs.gbuffer, &programs.path, &programs.accumulate, &programs.layers, &programs.tonemap}) {
         EXPECT_FALSE(program->bindings().empty());

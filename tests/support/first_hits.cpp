@@ -6,7 +6,7 @@
 #include "licht/gpu/commands.h"
 #include "licht/on_device/gpu_scene.h"
 #include "licht/render/gbuffer.h"
-#include "licht/render/history.h"
+#include "licht/render/images.h"
 #include "licht/render/view.h"
 #include "licht/shared/effects.h"
 #include "licht/shared/frame.h"
@@ -20,7 +20,7 @@ std::vector<std::byte> lookAtFirstHits(const Scene& scene, uvec2 size, const std
     Effects effects = detectEffects(scene);
     effects.on[kEffectAlpha] = false;
     const GpuScene gpu_scene(device, scene, effects, {});
-    History history(device, size, false);
+    const Images images(device, size, {});
     gpu::SpecConstants constants = gpu_scene.constants();
     const gpu::Program gbuffer = gbufferProgram(device, constants);
     const gpu::Program program = gpu::Program::compute(device, name, kernel, constants);
@@ -35,7 +35,7 @@ std::vector<std::byte> lookAtFirstHits(const Scene& scene, uvec2 size, const std
     gpu::Buffer outcome(device, "outcome", bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Memory::host_read);
     std::memset(outcome.mapped(), 0, bytes);
     std::vector<gpu::BoundResource> resources = gpu_scene.resources();
-    for (const gpu::BoundResource& r : history.resources()) resources.push_back(r);
+    for (const gpu::BoundResource& r : images.resources(0)) resources.push_back(r);
     resources.push_back({"FrameBlock", &frame_buffer});
     resources.push_back({"OutcomeBlock", &outcome});
     const gpu::Bindings gbuffer_bindings(device, gbuffer, resources);
@@ -44,7 +44,7 @@ std::vector<std::byte> lookAtFirstHits(const Scene& scene, uvec2 size, const std
     push.row_count = size.y;
     gpu::Commands commands(device);
     commands.begin();
-    recordGbuffer(commands, {gbuffer, gbuffer_bindings}, gpu_scene, history, push);
+    recordGbuffer(commands, {gbuffer, gbuffer_bindings}, gpu_scene, images, push);
     commands.dispatch(name, {program, bindings}, push, {size.x, size.y});
     const gpu::Buffer* visible = &outcome;
     commands.makeVisibleToHost(std::span(&visible, 1));

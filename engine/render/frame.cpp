@@ -1,0 +1,85 @@
+#include "licht/render/frame.h"
+
+#include <algorithm>
+
+#include "licht/render/gbuffer.h"
+#include "licht/render/pass_list.h"
+
+namespace licht {
+namespace {
+
+// Means over this many samples are as good as exact for the layers, and their plain fp32 sums cannot stall.
+constexpr std::uint32_t kMostLayerSamples = 4096;
+
+}  // namespace
+
+Frame::Frame(gpu::Device& device, const Programs& programs, const GpuScene& scene,
+             const RenderSettings& settings, const InFlight& in_flight, const gpu::Image* order_sums,
+             const gpu::Buffer* tiles)
+    : programs_(programs), scene_(scene), settings_(settings), images_(device, settings.size, settings) {
+    if (order_sums != nullptr) images_.lend("order_sums", *order_sums);
+    if (programs.wavefront) wavefront_.emplace(device, *programs.wavefront, settings.size);
+    for (std::size_t slot = 0; slot < InFlight::kSlots; ++slot) {
+        for (std::size_t parity = 0; parity < images_.parities(); ++parity) {
+            std::vector<gpu::BoundResource> resources = scene.resources();
+            for (const gpu::BoundResource& image : images_.resources(parity)) resources.push_back(image);
+            resources.push_back({"FrameBlock", &in_flight[slot].record});
+            resources.push_back({"Counters", &in_flight[slot].counters});
+            resources.push_back({"AdaptiveTiles", tiles != nullptr ? tiles : &in_flight[slot].record});
+            const auto to = [&](const gpu::Program& program) {
+                return gpu::Bindings(device, program, resources);
+            };
+            Bound& bound = bound_.emplace_back();
+            bound.gbuffer = to(programs.gbuffer);
+            bound.accumulate = to(programs.accumulate);
+            if (settings.aovs.any()) bound.layers = to(programs.layers);
+            if (slot == 0) tonemap_.push_back(to(programs.tonemap));
+            if (wavefront_)
+                wavefront_->bind(std::move(resources));
+            else
+                bound.path = to(programs.path);
+        }
+    }
+}
+
+void Frame::begin() {
+    if (begun_) images_.next();
+    begun_ = true;
+}
+
+void Frame::record(gpu::Commands& commands, std::size_t slot, const Slice& slice) const {
+    const std::size_t bound = slot * images_.parities() + images_.parity();
+    const Bound& on = bound_[bound];
+    if (slice.first) recordGbuffer(commands, {programs_.gbuffer, on.gbuffer}, scene_, images_, slice.push);
+    followPaths(commands, bound, slice.push);
+    if (!slice.last) return;
+    commands.dispatch(passName(PassId::accumulate), {programs_.accumulate, on.accumulate}, slice.push,
+                      pixels());
+    if (drawsLayers(slice.push.count_before))
+        commands.dispatch(passName(PassId::layers), {programs_.layers, on.layers}, slice.push, pixels());
+}
+
+void Frame::followPaths(gpu::Commands& commands, std::size_t bound, const SamplePush& push) const {
+    if (wavefront_) {
+        wavefront_->record(commands, bound, settings_.orders, push);
+        return;
+    }
+    const std::uint32_t rows = (push.row_count + programs_.paths_per_thread - 1) / programs_.paths_per_thread;
+    commands.dispatch(passName(PassId::path), {programs_.path, bound_[bound].path}, push,
+                      {images_.size().x, rows});
+}
+
+void Frame::recordDisplay(gpu::Commands& commands, const TonemapPush& push) const {
+    commands.dispatch(passName(PassId::tonemap), {programs_.tonemap, tonemap_[images_.parity()]}, push,
+                      pixels());
+}
+
+bool Frame::drawsLayers(std::uint32_t count_before) const {
+    return settings_.aovs.any() && count_before < kMostLayerSamples;
+}
+
+std::uint32_t Frame::mostRows() const {
+    return wavefront_ ? std::min(wavefront_->mostRows(), images_.size().y) : images_.size().y;
+}
+
+}  // namespace licht

@@ -1,0 +1,95 @@
+#include "licht/render/images.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace licht {
+namespace {
+
+constexpr VkFormat kFloat4 = VK_FORMAT_R32G32B32A32_SFLOAT;
+
+bool wantsLayers(const RenderSettings& settings) {
+    return settings.aovs.any();
+}
+
+constexpr auto kTable = std::to_array<ImageRow>({
+    {"gbuffer", VK_FORMAT_R32G32B32A32_UINT, Target::color, Lifetime::frame, nullptr},
+    {"depth", VK_FORMAT_D32_SFLOAT, Target::depth, Lifetime::frame, nullptr},
+    {"radiance_image", kFloat4, Target::none, Lifetime::frame, nullptr},
+    {"mean_high", kFloat4, Target::none, Lifetime::history, nullptr},
+    {"mean_low", kFloat4, Target::none, Lifetime::history, nullptr},
+    {"squares_high", kFloat4, Target::none, Lifetime::history, nullptr},
+    {"squares_low", kFloat4, Target::none, Lifetime::history, nullptr},
+    {"aov_albedo", kFloat4, Target::none, Lifetime::history, wantsLayers},
+    {"aov_normal", kFloat4, Target::none, Lifetime::history, wantsLayers},
+    {"aov_motion", kFloat4, Target::none, Lifetime::history, wantsLayers},
+    {"order_sums", kFloat4, Target::none, Lifetime::lent, nullptr},
+    {"display_image", VK_FORMAT_R8G8B8A8_UNORM, Target::none, Lifetime::frame, nullptr},
+});
+
+VkImageUsageFlags usageOf(Target target) {
+    constexpr VkImageUsageFlags kStored = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+    switch (target) {
+        case Target::none:
+            return kStored;
+        case Target::color:
+            return kStored | VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
+        case Target::depth:
+            break;
+    }
+    return VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT;
+}
+
+}  // namespace
+
+std::span<const ImageRow> imageTable() {
+    return kTable;
+}
+
+Images::Images(gpu::Device& device, uvec2 size, const RenderSettings& settings,
+               std::span<const ImageRow> table)
+    : size_(size), nothing_(device, "nothing", {1, 1}, kFloat4, usageOf(Target::none)) {
+    for (const ImageRow& row : table) {
+        Entry& entry = entries_.emplace_back();
+        entry.row = &row;
+        entry.previous_name = "previous_" + std::string(row.name);
+        if (row.lifetime == Lifetime::lent || (row.wanted != nullptr && !row.wanted(settings))) continue;
+        const bool pair = row.lifetime == Lifetime::ping_pong;
+        pairs_ = pairs_ || pair;
+        for (std::size_t i = 0; i < (pair ? 2U : 1U); ++i)
+            entry.images[i] =
+                gpu::Image(device, std::string(row.name), {size.x, size.y}, row.format, usageOf(row.target));
+    }
+}
+
+const gpu::Image& Images::imageOf(const Entry& entry, std::size_t parity) const {
+    if (entry.lent != nullptr) return *entry.lent;
+    if (!entry.images[0]) return nothing_;
+    return entry.row->lifetime == Lifetime::ping_pong ? entry.images[parity % 2] : entry.images[0];
+}
+
+const gpu::Image& Images::operator[](std::string_view name) const {
+    const auto found = std::find_if(entries_.begin(), entries_.end(),
+                                    [name](const Entry& entry) { return entry.row->name == name; });
+    assert(found != entries_.end());
+    return imageOf(*found, parity());
+}
+
+void Images::lend(std::string_view name, const gpu::Image& image) {
+    const auto found = std::find_if(entries_.begin(), entries_.end(),
+                                    [name](const Entry& entry) { return entry.row->name == name; });
+    assert(found != entries_.end() && found->row->lifetime == Lifetime::lent);
+    found->lent = &image;
+}
+
+std::vector<gpu::BoundResource> Images::resources(std::size_t parity) const {
+    std::vector<gpu::BoundResource> list;
+    for (const Entry& entry : entries_) {
+        list.push_back({std::string(entry.row->name), &imageOf(entry, parity)});
+        if (entry.row->lifetime == Lifetime::ping_pong)
+            list.push_back({entry.previous_name, &imageOf(entry, parity + 1)});
+    }
+    return list;
+}
+
+}  // namespace licht
