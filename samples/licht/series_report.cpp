@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "licht/film/film.h"
+#include "licht/render/pass_list.h"
 #include "licht/render/statistics.h"
 
 namespace licht {
@@ -28,35 +29,26 @@ ordered_json tailJson(const TailEstimate& tail) {
             {"ratio", tail.ratio}};
 }
 
-double passSeconds(const RenderStatistics& statistics, const std::string& name) {
-    const auto found = statistics.passes.find(name);
-    return found == statistics.passes.end() ? 0.0 : found->second.seconds;
-}
-
 /// The kernels of the queues are timed by bounce. Light of order i is what the vertex before it looked for.
-double secondsByPasses(const RenderReport& report, std::size_t order) {
-    const RenderStatistics& statistics = report.statistics;
-    const auto shade = [&](std::size_t bounce) {
-        return passSeconds(statistics, fmt::format("path shade {}", bounce));
-    };
-    double seconds = order == report.settings.bounces ? shade(order) : 0.0;
+double secondsByPasses(const RenderReport& report, std::uint32_t order) {
+    const PassTimes& passes = report.statistics.passes;
+    double seconds = order == report.settings.bounces ? passSeconds(passes, PassId::path_shade, order) : 0.0;
     if (order == 0)
-        return seconds + passSeconds(statistics, "gbuffer") + passSeconds(statistics, "path start");
-    if (order == 1) seconds += passSeconds(statistics, "path lights");
-    seconds += shade(order - 1);
-    for (const char* kernel : {"path shadow", "path trace"})
-        seconds += passSeconds(statistics, fmt::format("{} {}", kernel, order - 1));
+        return seconds + passSeconds(passes, PassId::gbuffer) + passSeconds(passes, PassId::path_start);
+    for (const PassId kernel : {PassId::path_shade, PassId::path_shadow, PassId::path_trace})
+        seconds += passSeconds(passes, kernel, order - 1);
     return seconds;
 }
 
 /// One kernel follows the whole path; its time is shared out by the rays.
-double secondsByRays(const RenderReport& report, std::size_t order) {
+double secondsByRays(const RenderReport& report, std::uint32_t order) {
     const RenderStatistics& statistics = report.statistics;
-    if (order == 0) return passSeconds(statistics, "gbuffer");
+    if (order == 0) return passSeconds(statistics.passes, PassId::gbuffer);
     double rays = 0.0;
     for (const std::uint64_t of_order : statistics.order_rays) rays += static_cast<double>(of_order);
     if (!(rays > 0.0)) return 0.0;
-    return passSeconds(statistics, "path") * static_cast<double>(statistics.order_rays[order]) / rays;
+    return passSeconds(statistics.passes, PassId::path) * static_cast<double>(statistics.order_rays[order]) /
+           rays;
 }
 
 /// The share of the light that the clamp took.
@@ -80,7 +72,7 @@ ordered_json ordersJson(const RenderReport& report) {
     if (!report.settings.orders) return nullptr;
     const std::vector<OrderEstimate> orders = estimateOrders(report.light);
     ordered_json list = ordered_json::array();
-    for (std::size_t i = 0; i < orders.size(); ++i) {
+    for (std::uint32_t i = 0; i < orders.size(); ++i) {
         const bool by_passes = report.settings.queues;
         list.push_back({{"order", i},
                         {"share", orders[i].share.value},
