@@ -51,8 +51,8 @@ void developLayers(Film& film, const AovSet& wanted, std::uint32_t aov_samples,
     if (wanted.motion) film.motion = plane(film, 2);
     for (std::size_t i = 0; i < pixels(film); ++i) {
         const float hits = albedo[i].w;
-        // Albedo and beauty share their edges: both are means over all samples. The others are means over
-        // what was hit.
+        // Albedo and beauty share their edges: both are means over all samples. Normal and depth are means
+        // over what was hit, motion is that of the last sample.
         if (wanted.albedo) {
             const vec3 a = aov_samples > 0 ? vec3(albedo[i]) / static_cast<float>(aov_samples) : vec3(0.0F);
             std::memcpy(&film.albedo.texels[3 * i], &a, sizeof(a));
@@ -65,7 +65,7 @@ void developLayers(Film& film, const AovSet& wanted, std::uint32_t aov_samples,
         }
         if (wanted.depth) film.depth.texels[i] = hits > 0.0F ? normal[i].w / hits : kInfinity;
         if (wanted.motion) {
-            const vec2 m = hits > 0.0F ? vec2(motion[i]) / hits : vec2(0.0F);
+            const vec2 m(motion[i]);
             std::memcpy(&film.motion.texels[2 * i], &m, sizeof(m));
         }
     }

@@ -17,7 +17,7 @@ struct Film {
     Image albedo;    ///< RGB, when asked for
     Image normal;    ///< XYZ, unit or zero, when asked for
     Image depth;     ///< when asked for; infinite where nothing was hit
-    Image motion;    ///< XY, when asked for
+    Image motion;    ///< XY of the last sample, when asked for
     std::vector<Image> orders;  ///< RGB of T^i Le each, when asked for; they sum to the mean
     Image lost;                 ///< RGB: what the clamp took, where it is on
 };

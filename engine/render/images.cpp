@@ -22,7 +22,7 @@ constexpr auto kTable = std::to_array<ImageRow>({
     {"squares_low", kFloat4, Target::none, Lifetime::history, nullptr},
     {"aov_albedo", kFloat4, Target::none, Lifetime::history, wantsLayers},
     {"aov_normal", kFloat4, Target::none, Lifetime::history, wantsLayers},
-    {"aov_motion", kFloat4, Target::none, Lifetime::history, wantsLayers},
+    {"aov_motion", kFloat4, Target::none, Lifetime::frame, wantsLayers},
     {"order_sums", kFloat4, Target::none, Lifetime::lent, nullptr},
     {"display_image", VK_FORMAT_R8G8B8A8_UNORM, Target::none, Lifetime::frame, nullptr},
 });

@@ -87,7 +87,7 @@ struct Renderer::State {
     gpu::Image folded_mean;            ///< of all rounds, for the display
     gpu::Bindings folded_bindings;
     ViewRecord view{};
-    ViewRecord previous_view{};
+    ViewRecord previous_view{};  ///< that the last sample saw
     RenderStatistics statistics;  ///< without what in_flight counts
 };
 
@@ -178,6 +178,7 @@ void Renderer::renderSample() {
         s.in_flight.submit(slot);
     }
     if (s.frame->drawsLayers(push.count_before)) ++s.layer_samples;
+    s.previous_view = s.view;
     ++s.samples;
     s.statistics.primary_rays += std::uint64_t{s.settings.size.x} * s.settings.size.y;
     if (s.order_sums && !s.rounds && OrderSums::due(s.samples, s.folded_samples)) {
@@ -238,7 +239,6 @@ void Renderer::setCamera(const Camera& camera) {
     const ViewRecord view = makeView(camera, s.settings.size, s.gpu_scene.bounds());
     s.camera = camera;
     if (std::memcmp(&view, &s.view, sizeof(view)) == 0) return;
-    s.previous_view = s.view;
     s.view = view;
     s.restart();
 }

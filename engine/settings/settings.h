@@ -15,7 +15,9 @@ struct AovSet {
     bool albedo = false;
     bool normal = false;  ///< world-space shading normal
     bool depth = false;   ///< distance along the camera's axis, metres
-    bool motion = false;  ///< pixels, from the previous view's position to this one's
+    /// Pixels, from where the sample before the last saw a point to where the last one sees it: zero as soon
+    /// as the camera has rested for a sample. A mean over samples would keep what is long past.
+    bool motion = false;
 
     [[nodiscard]] bool any() const { return albedo || normal || depth || motion; }
 };

@@ -25,6 +25,7 @@ void expectSameBits(const Film& a, const Film& b) {
     EXPECT_TRUE(identical(a.albedo, b.albedo));
     EXPECT_TRUE(identical(a.normal, b.normal));
     EXPECT_TRUE(identical(a.depth, b.depth));
+    EXPECT_TRUE(identical(a.motion, b.motion));
     ASSERT_EQ(a.orders.size(), b.orders.size());
     for (std::size_t i = 0; i < a.orders.size(); ++i) EXPECT_TRUE(identical(a.orders[i], b.orders[i])) << i;
 }
@@ -104,6 +105,45 @@ INSTANTIATE_TEST_SUITE_P(All, Renderers,
                                          Kind{"queuesOrders", true, true, false},
                                          Kind{"queuesAdaptive", true, false, true}),
                          [](const auto& kind) { return std::string(kind.param.name); });
+
+void expectMotion(const Film& film, vec2 pixels) {
+    ASSERT_EQ(film.motion.channels, 2);
+    for (std::size_t i = 0; i < film.motion.texels.size(); i += 2) {
+        // Positions of some 1 m at 100 pixels a metre, in fp32.
+        ASSERT_NEAR(film.motion.texels[i], pixels.x, pixels.x == 0.0F ? 0.0F : 1e-4F);
+        ASSERT_NEAR(film.motion.texels[i + 1], pixels.y, pixels.y == 0.0F ? 0.0F : 1e-4F);
+    }
+}
+
+// The floor fills the picture, whose 0.8 m are 40 pixels.
+TEST(Motion, IsThatOfTheLastSample) {
+    const Scene scene = litFloor();
+    const Kind kind{"", false, false, false};
+    const auto at = [](float x, float z) {
+        Camera camera = litFloorCamera();
+        camera.world_from_view[3] += vec4(x, 0.0F, z, 0.0F);
+        return camera;
+    };
+    Renderer renderer(gpu::testDevice(), scene, at(0, 0), settingsOf(kind, {40, 40}));
+    renderer.renderSample();
+    expectMotion(renderer.readFilm(), vec2(0.0F));
+    renderer.setCamera(at(0.1F, 0));
+    renderer.renderSample();
+    expectMotion(renderer.readFilm(), vec2(-5, 0));
+    renderer.renderSample();
+    expectMotion(renderer.readFilm(), vec2(0.0F));
+    renderer.setCamera(at(0.2F, 0.1F));
+    renderer.setCamera(at(0.1F, -0.05F));  // nothing was drawn between
+    renderer.renderSample();
+    expectMotion(renderer.readFilm(), vec2(0, 2.5F));
+    renderer.setCamera(at(0.1F, -0.05F));  // rests
+    renderer.renderSample();
+    expectMotion(renderer.readFilm(), vec2(0.0F));
+    renderer.setCamera(at(0, 0));
+    renderer.resize({40, 40});
+    renderer.renderSample();
+    expectMotion(renderer.readFilm(), vec2(0.0F));
+}
 
 TEST(Passes, AreThoseOfTheList) {
     const Scene scene = litFloor();
