@@ -3,8 +3,8 @@
 namespace licht {
 namespace {
 
-// Share of Embree on the terrain's first bounces (lavapipe): 16 rays 0.59, 32 and 64 rays 0.63. More would
-// leave less to every ray of the 65,535 rounds that some drivers run, and hand out work in larger pieces.
+// Fewer give lanes that are done too little to go on with (tests/bench/MEASURED.md, rays). More would leave
+// less to every ray of the rounds that some drivers run, and hand out work in larger pieces.
 constexpr std::uint32_t kRaysInLockstep = 32;
 
 }  // namespace

@@ -1,10 +1,7 @@
 #include "licht/run/plan.h"
 
-#include <algorithm>
-
 #include "licht/gpu/lanes.h"
 #include "licht/run/queue_choice.h"
-#include "licht/shared/queue_records.h"
 
 namespace licht {
 
@@ -24,10 +21,8 @@ RunPlan planRun(gpu::Device& device, const Scene& scene, const Camera& camera, c
     RunPlan plan{run.render, stopRules(run), {}, {}};
     plan.settings.blue_bits = blueBitsFor(run.samples);
     if (run.auto_bounces) {
-        const std::uint32_t most =
-            run.queues == QueueUse::on ? std::min(kMostQueueBounces, kMostAutoBounces) : kMostAutoBounces;
-        plan.depth =
-            chooseDepth(device, scene, camera, plan.settings, run.error.value_or(kDefaultTailShare), most);
+        plan.depth = chooseDepth(device, scene, camera, plan.settings, run.error.value_or(kDefaultTailShare),
+                                 mostChosenBounces(run.queues));
         plan.settings.bounces = plan.depth->bounces;
     }
     if (run.render.regularise)

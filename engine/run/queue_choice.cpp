@@ -7,12 +7,11 @@
 namespace licht {
 namespace {
 
-// Measured on lavapipe, CPU seconds over two cores, one kernel against queues: cornell 256x256, 16 samples, 8
-// bounces 1.90 and 1.61; gallery 320x180, 3 samples 2.1 and 1.6; terrain 480x270, 8 samples 1.23 and 1.07. So
-// a million of vertices (pixels x samples x bounces) saves 0.035, 0.36 and 0.02 of them; compiling queues
-// takes 0.35 to 0.5 more, which 14, 1 and 22 million vertices repay.
+// Queues are drawn from faster, but their programs take longer to compile. After so many vertices (pixels x
+// samples x bounces) of an ordinary scene the one has repaid the other; scenes differ by a factor of twenty
+// (tests/bench/MEASURED.md, wavefront and megakernel).
 constexpr double kRepaidVertices = 16e6;
-// The same in seconds of rendering, at the least of these gains.
+// The same in seconds of rendering, for the scenes that gain least.
 constexpr double kRepaidSeconds = 2.0;
 // Absorption and roulette leave few paths that are longer.
 constexpr std::uint32_t kUsualBounces = 8;
@@ -26,6 +25,10 @@ bool chooseQueues(QueueUse use, const RenderSettings& settings, const StopRules&
     const double vertices = static_cast<double>(settings.size.x) * settings.size.y *
                             std::min(settings.bounces, kUsualBounces) * rules.samples;
     return vertices >= kRepaidVertices;
+}
+
+std::uint32_t mostChosenBounces(QueueUse use) {
+    return use == QueueUse::on ? std::min(kMostQueueBounces, kMostAutoBounces) : kMostAutoBounces;
 }
 
 }  // namespace licht

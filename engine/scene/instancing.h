@@ -7,9 +7,8 @@
 
 namespace licht {
 
-// Measured on lavapipe, 32,400 overlapping tufts of 84 triangles (the built-in meadow, smaller): shared they
-// take 12 MB of geometry instead of 352 (about 220 bytes an instance against 123 a triangle), build in a
-// thirtieth of the time, and cost 2.7 times as much per ray. So meshes are shared only where memory matters.
+// A mesh that is stored once takes a fraction of the memory and of the time to build, and its rays cost more
+// than twice as much (tests/bench/MEASURED.md, rays). So meshes are shared only where memory matters.
 
 /// A mesh of fewer triangles is always baked.
 inline constexpr std::uint64_t kLeastInstancedTriangles = 32;

@@ -90,7 +90,6 @@ std::string reportJson(const RenderReport& report) {
     json["driver"] = report.driver;
     json["size"] = {report.size.x, report.size.y};
     json["spp"] = report.samples;
-    json["settings"] = askedJson(report.asked);
     json["first_sample"] = report.settings.first_sample;
     json["seed"] = report.settings.seed;
     json["bounces"] = report.settings.bounces;
@@ -99,6 +98,7 @@ std::string reportJson(const RenderReport& report) {
     json["adaptive"] = adaptiveJson(report);
     json["declared_bias"] = biasJson(report);
     json["queues"] = report.settings.queues;
+    json["settings"] = askedJson(report.asked);
     json["stopped_by"] = stopName(report.stopped_by);
     json["interrupted"] = report.stopped_by == Stop::interrupt;
     json["seconds"] = {{"load", report.load_seconds},

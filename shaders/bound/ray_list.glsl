@@ -8,7 +8,7 @@
 #ifndef LICHT_BOUND_RAY_LIST_GLSL
 #define LICHT_BOUND_RAY_LIST_GLSL
 
-// Of eight lanes, when new rays are set up. Measured on lavapipe, share of Embree on the terrain's first bounces: 2 lanes 0.59, 3 0.63, 4 0.62.
+// Of eight lanes, when new rays are set up: sooner, setting up is paid for too often; later, too many lanes wait (tests/bench/MEASURED.md, rays).
 const uint kIdleOfEight = 3u;
 
 // Threads beyond the list are allowed. Returns how many rays were lost to a loop that was cut.

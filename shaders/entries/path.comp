@@ -24,9 +24,9 @@ void main() {
     }
     barrier();
     PathCounts counts = PathCounts(0u, 0u);
-    // Kernels with queues between them (queues.cpp) draw 1.15 to 1.3 times as fast on lavapipe: of eight lanes 0.80 to 0.89 are alive at a vertex here
-    // (0.54 to 0.83 with one path a thread), all of them in queues, and within a walk about half here and most there, where lanes take the next ray of
-    // a list. They take 0.3 s more to compile and 180 bytes a path; engine/run/queue_choice.cpp says when they pay.
+    // Kernels with queues between them (queues.cpp) draw faster where lanes run in lockstep: here some are idle at a vertex and half within a walk, there
+    // lanes take the next path and the next ray of a list. They take longer to compile, and memory for each path; engine/run/queue_choice.cpp says when
+    // they pay, tests/bench/MEASURED.md by how much.
     // A thread follows a column of paths, the next one as soon as one ends: drivers that run lanes in lockstep would otherwise idle wherever the
     // paths of a group are of different lengths.
     uvec2 pixel = uvec2(gl_GlobalInvocationID.x, push.first_row + gl_WorkGroupID.y * gl_WorkGroupSize.y * kPathsPerThread + gl_LocalInvocationID.y);
