@@ -65,17 +65,17 @@ double RayTracer::traceRange(const RayRange& range) {
 }
 
 // Rays whose walk is cut write nothing.
-void RayTracer::markAllCut() {
+void RayTracer::markAllTruncated() {
     commands_.begin();
     commands_.pass("mark", {{&hits_, gpu::Access::transfer_write}}, [&](VkCommandBuffer recording) {
-        vkCmdFillBuffer(recording, hits_.handle(), 0, VK_WHOLE_SIZE, kRayCut);
+        vkCmdFillBuffer(recording, hits_.handle(), 0, VK_WHOLE_SIZE, kRayTruncated);
     });
     commands_.submit();
     commands_.wait();
 }
 
 double RayTracer::trace() {
-    markAllCut();
+    markAllTruncated();
     double seconds = 0.0;
     uint slice = 0;
     for (RayRange range{0, 0}; range.first < ray_count_; range.first += slice) {

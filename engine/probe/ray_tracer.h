@@ -24,7 +24,7 @@ public:
     [[nodiscard]] std::vector<RayHitRecord> hits() const;
 
 private:
-    void markAllCut();
+    void markAllTruncated();
     double traceRange(const RayRange& range);
 
     gpu::Device* device_;

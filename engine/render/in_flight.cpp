@@ -22,7 +22,7 @@ void InFlight::collect(Slot& slot) {
     counted_.bounce_rays += counts.bounce_rays;
     counted_.shadow_rays += counts.shadow_rays;
     counted_.nonfinite_samples += counts.nonfinite_samples;
-    counted_.cut_walks += counts.cut_walks;
+    counted_.truncated_traversals += counts.truncated_traversals;
     counted_.environment_samples += counts.environment_samples;
     counted_.environment_tries += counts.environment_tries;
 }
@@ -62,7 +62,7 @@ void InFlight::addTo(RenderStatistics& statistics) const {
     statistics.bounce_rays += counted_.bounce_rays;
     statistics.shadow_rays += counted_.shadow_rays;
     statistics.nonfinite_samples += counted_.nonfinite_samples;
-    statistics.cut_walks += counted_.cut_walks;
+    statistics.truncated_traversals += counted_.truncated_traversals;
     statistics.environment_samples += counted_.environment_samples;
     statistics.environment_tries += counted_.environment_tries;
     for (const Slot& slot : slots_) addTimes(statistics.passes, slot.commands.times());

@@ -8,7 +8,7 @@
 #include "licht/gpu/lanes.h"
 #include "licht/render/pass_list.h"
 #include "licht/shared/constants.h"
-#include "licht/shared/queue_records.h"
+#include "licht/shared/path.h"
 #include "licht/shared/ray_records.h"
 #include "licht/spirv/queue_finish_comp.h"
 #include "licht/spirv/queue_prepare_comp.h"
@@ -21,8 +21,6 @@ namespace licht {
 namespace {
 
 constexpr std::uint32_t kTile = 8;
-// The rays before a shadow ray share a word with its target: the rasteriser's, and two a bounce.
-static_assert(1 + 2 * kMostQueueBounces < 1U << kShadowTargetShift);
 constexpr VkBufferUsageFlags kFetched =
     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
 
@@ -106,7 +104,7 @@ void Wavefront::record(gpu::Commands& commands, std::size_t bound, bool by_bounc
                        const SamplePush& sample) const {
     const WavefrontPrograms& run = *programs_;
     const BoundKernels& on = bound_[bound];
-    QueuePush push{sample.sample_index, sample.first_row, sample.row_count, 0};
+    WavefrontPush push{sample.sample_index, sample.first_row, sample.row_count, 0};
     const gpu::Threads pixels{width_, push.row_count};
     const auto overQueue = [&](PassId pass, const gpu::BoundProgram& kernel, std::uint32_t queue) {
         commands.dispatchIndirect(by_bounce ? passName(pass, push.bounce) : passName(pass), kernel, push,

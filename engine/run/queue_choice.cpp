@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "licht/shared/queue_records.h"
+#include "licht/shared/path.h"
 
 namespace licht {
 namespace {

@@ -43,7 +43,7 @@ std::vector<std::size_t> differences(std::span<const BvhTriangle> triangles, std
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const bool hit_a = a[i].triangle != kNoIndex;
         const bool hit_b = b[i].triangle != kNoIndex;
-        bool same = hit_a == hit_b && a[i].triangle != kRayCut;
+        bool same = hit_a == hit_b && a[i].triangle != kRayTruncated;
         if (same && hit_a && !any_hit) {
             const double bound = std::max(distanceBound(rays[i], triangles[a[i].triangle], a[i].t),
                                           distanceBound(rays[i], triangles[b[i].triangle], b[i].t));

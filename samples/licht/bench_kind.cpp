@@ -90,8 +90,8 @@ BenchKind measureKind(const BenchScene& scene, const RayList& list, std::uint32_
     RayTracer tracer(scene.device, scene.on_device, list.rays, list.any_hit, rays_per_thread);
     tracer.trace();  // compiles, and finds how much to submit at once
     const std::vector<RayHitRecord> found = tracer.hits();
-    result.cut_walks = static_cast<std::uint64_t>(std::count_if(
-        found.begin(), found.end(), [](const RayHitRecord& hit) { return hit.triangle == kRayCut; }));
+    result.truncated_traversals = static_cast<std::uint64_t>(std::count_if(
+        found.begin(), found.end(), [](const RayHitRecord& hit) { return hit.triangle == kRayTruncated; }));
     std::vector<RayHitRecord> hits(list.rays.size());
     YardstickCall packet;
     if (scene.yardstick != nullptr) {

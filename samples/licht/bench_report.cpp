@@ -41,7 +41,7 @@ Json kindJson(const BenchKind& k) {
             {"embree_packet_mrays_per_second", medianOf(k.embree_packet_mrays)},
             {"embree_packet_call", k.packet_call.empty() ? Json(nullptr) : Json(k.packet_call)},
             {"embree_leaks", orNull(k.embree_leaks)},
-            {"cut_walks", k.cut_walks}};
+            {"cut_walks", k.truncated_traversals}};
 }
 
 std::string cell(const std::optional<double>& value, int digits) {
@@ -107,8 +107,8 @@ std::string benchText(const BenchReport& r) {
                             cell(k.triangles_per_ray, 1));
     }
     for (const BenchKind& k : r.kinds) {
-        if (k.cut_walks > 0)
-            text += fmt::format("warning: the driver cut {} walks of {} rays short\n", k.cut_walks, k.kind);
+        if (k.truncated_traversals > 0)
+            text += fmt::format("warning: the driver cut {} walks of {} rays short\n", k.truncated_traversals, k.kind);
         if (k.embree_leaks.value_or(0) > 0)
             text += fmt::format(
                 "{}: {} rays slipped through edges in Embree's default mode and not in its robust one\n",

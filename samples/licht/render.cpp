@@ -85,12 +85,12 @@ void warnOfDoubts(const RenderReport& report) {
     if (statistics.nonfinite_samples > 0)
         fmt::print(stderr, "licht: warning: {} samples were no finite number and count as black\n",
                    statistics.nonfinite_samples);
-    if (statistics.cut_walks > 0)
+    if (statistics.truncated_traversals > 0)
         fmt::print(
             stderr,
             "licht: warning: in {} samples the driver ended the search for a hit early; surfaces may be "
             "missing\n",
-            statistics.cut_walks);
+            statistics.truncated_traversals);
 }
 
 }  // namespace

@@ -118,7 +118,7 @@ std::string reportJson(const RenderReport& report) {
     json["orders"] = ordersJson(report);
     json["tail"] = tailJson(report);
     json["nonfinite_samples"] = statistics.nonfinite_samples;
-    json["cut_walks"] = statistics.cut_walks;
+    json["cut_walks"] = statistics.truncated_traversals;
     if (statistics.environment_samples > 0)
         json["environment_tries_per_sample"] = static_cast<double>(statistics.environment_tries) /
                                                static_cast<double>(statistics.environment_samples);

@@ -27,6 +27,21 @@ vec3 directionToCamera(ViewRecord view, vec2 pixel_position) {
     return normalize(view.back - ndc.x * view.scale_x * view.right + ndc.y * view.scale_y * view.up);
 }
 
+// The ray through a position in pixels; its direction is a unit vector.
+struct CameraRay {
+    vec3 origin;
+    vec3 direction;
+};
+
+CameraRay cameraRay(ViewRecord view, vec2 pixel_position) {
+    CameraRay ray = CameraRay(view.eye, -directionToCamera(view, pixel_position));
+    if (view.orthographic != 0u) {
+        vec2 ndc = 2.0 * pixel_position / vec2(view.size) - 1.0;
+        ray.origin += ndc.x * view.scale_x * view.right - ndc.y * view.scale_y * view.up;
+    }
+    return ray;
+}
+
 vec3 directionToCamera(ViewRecord view, vec3 world_position) {
     if (view.orthographic != 0u) return view.back;
     return normalize(view.eye - world_position);

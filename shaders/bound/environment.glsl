@@ -15,10 +15,6 @@ layout(constant_id = kConstantEnvironmentSampling) const uint kEnvironmentSampli
 layout(binding = kBindingEnvironmentMap) uniform sampler2D environment_map;
 layout(binding = kBindingEnvironmentTable) uniform usampler2D environment_table;  // engine/light/environment_table.h
 
-// Directions that rejection tried, and those that were asked for.
-uint g_environment_tries = 0u;
-uint g_environment_samples = 0u;
-
 // Bilinear by hand: linear filtering of fp32 images is optional in Vulkan, and its weights have few bits.
 vec3 environmentRadiance(vec3 direction) {
     ivec2 size = ivec2(frame.environment_size);
@@ -84,7 +80,8 @@ float pdfEnvironment(vec3 direction) {
 
 struct EnvironmentSample {
     vec3 direction;
-    float pdf;  // solid angle
+    float pdf;   // solid angle
+    uint tries;  // that rejection took; 0: it was not asked
 };
 
 // A texel by its share, in constant time, then a direction in it.
@@ -97,7 +94,7 @@ EnvironmentSample sampleByAlias(uvec4 bits) {
     uvec4 a = texelFetch(environment_table, ivec2(i % size.x, i / size.x), 0);
     if (u.y >= uintBitsToFloat(a.x)) i = a.y;
     uvec2 texel = uvec2(i % size.x, i / size.x);
-    return EnvironmentSample(directionInTexel(texel, u.w, u.z), texelShare(texel) / texelSolidAngle(texel.y));
+    return EnvironmentSample(directionInTexel(texel, u.w, u.z), texelShare(texel) / texelSolidAngle(texel.y), 0u);
 }
 
 // How many of `count` ends from `texel` on along `step` are at most `at`; never all of them.
@@ -125,7 +122,7 @@ EnvironmentSample sampleByInversion(uvec4 bits) {
     texel.x = endsUpTo(texel, uvec2(1u, 0u), frame.environment_size.x, at.x);
     float v = placeBetween(startOf(rowEnd(texel), true), endOf(rowEnd(texel)), at.y, below.y);
     float u = placeBetween(startOf(texel, false), endOf(texel), at.x, below.x);
-    return EnvironmentSample(directionInTexel(texel, u, v), texelShare(texel) / texelSolidAngle(texel.y));
+    return EnvironmentSample(directionInTexel(texel, u, v), texelShare(texel) / texelSolidAngle(texel.y), 0u);
 }
 
 // A direction uniform over the sphere, kept with a chance in proportion to its density; the mean number of tries is 4 pi times the largest density. Maps with
@@ -137,16 +134,17 @@ EnvironmentSample sampleByRejection(uvec4 bits) {
         EnvironmentSample e;
         e.direction = directionFromLatlong(u.x, y, 2.0 * sqrt(u.y * (1.0 - u.y)));
         e.pdf = pdfEnvironment(e.direction);
-        ++g_environment_tries;
+        e.tries = i + 1u;
         if (u.z * frame.environment_peak < e.pdf) return e;
         bits = hash4(bits);
     }
-    return sampleByAlias(bits);
+    EnvironmentSample e = sampleByAlias(bits);
+    e.tries = kEnvironmentMostTries;
+    return e;
 }
 
 // All four words are used.
 EnvironmentSample sampleEnvironment(uvec4 bits) {
-    ++g_environment_samples;
     if (kEnvironmentSampling == kEnvironmentInversion) return sampleByInversion(bits);
     if (kEnvironmentSampling == kEnvironmentRejection) return sampleByRejection(bits);
     return sampleByAlias(bits);

@@ -21,9 +21,12 @@ vec3 hitPosition(Hit hit) {
            hit.b2 * worldPoint(at, vertexAt(v.z).position);
 }
 
+// Through the pixel, where its sample lies.
+CameraRay pixelRay(ivec2 pixel, uint sample_index) { return cameraRay(frame.view, vec2(pixel) + cameraJitter(sample_index, frame.seed)); }
+
 // Unit direction from what the pixel's sample saw to the camera.
 vec3 gbufferWo(Hit hit, ivec2 pixel, uint sample_index) {
-    if (hit.instance == kNoIndex) return directionToCamera(frame.view, vec2(pixel) + cameraJitter(sample_index, frame.seed));
+    if (hit.instance == kNoIndex) return -pixelRay(pixel, sample_index).direction;
     return directionToCamera(frame.view, hitPosition(hit));
 }
 

@@ -43,11 +43,15 @@ struct LightSample {
     float pdf;        // solid angle, with the probability of the pick; of punctual lights the pick alone
     bool delta;       // scattering cannot find it
     bool valid;
-    uint target;      // see RayQuery
-    float t_enough;
+    uint target;      // see ShadowRay
+    float t_enough;   // what is met nearer than that is surely not the target
+    uint tries;       // of rejection; 0: it was not asked
 };
 
-const LightSample kNoLight = LightSample(vec3(0.0), 0.0, vec3(0.0), 0.0, false, false, kNoIndex, 0.0);
+const LightSample kNoLight = LightSample(vec3(0.0), 0.0, vec3(0.0), 0.0, false, false, kNoIndex, 0.0, 0u);
+
+// Lights are chosen by what surfaces reflect where, too.
+const bool kHeedsGloss = kGlossy && kLights == kLightsTree;
 
 // Who asks for lights: the choice among them depends on where the surface is, whither it faces and what it reflects where. Packed, so that a path
 // can carry it; picking and looking up both read it from here.
@@ -63,7 +67,7 @@ const LightAsker kNobody = LightAsker(vec3(0.0), 0u, 0u, 0u);
 // wo: world, unit.
 LightAsker askerAt(Surface s, vec3 wo) {
     LightAsker asker = LightAsker(s.position, packOctahedral(s.frame.normal), 0u, 0u);
-    if (kGlossy && kLights == kLightsTree) {
+    if (kHeedsGloss) {
         float cos_o = dot(wo, s.frame.normal);
         asker.wo = packOctahedral(wo);
         asker.gloss = cos_o > 0.0 ? packHalf2x16(glossTowards(s.bsdf, cos_o)) : 0u;
@@ -191,7 +195,7 @@ LightSample sampleShape(LightRecord light, float pmf, Surface from, vec2 u) {
     vec3 extent = abs(light.position) + abs(light.direction) + abs(light.intensity);
     float error_bound = kPositionUnits * (dot(abs(normal), extent) + largest(max(abs(light.direction), abs(light.intensity))));
     vec3 target = offsetOrigin(from.position + d, normal, error_bound, -d);
-    return LightSample(target - offsetOrigin(from, d), 1.0, radiance, pdf, false, valid, kNoIndex, 0.0);
+    return LightSample(target - offsetOrigin(from, d), 1.0, radiance, pdf, false, valid, kNoIndex, infinity(), 0u);
 }
 
 // The mesh is closed and faces outwards (emitter_shapes.cpp), so what a ray meets first of it is a front.
@@ -211,15 +215,15 @@ LightSample sampleSphere(LightRecord light, float pmf, Surface from, vec2 u) {
     vec3 direction = middle + (from.position - offsetOrigin(from, middle));
     float pdf = pmf * pdfOnSphere(sine2);
     bool valid = along > 0.0 && pdf > 0.0 && !isinf(pdf);
-    return LightSample(direction * (end / along), 1.0, light.emission, pdf, false, valid, light.instance, (along - light.range) / end);
+    return LightSample(direction * (end / along), 1.0, light.emission, pdf, false, valid, light.instance, (along - light.range) / end, 0u);
 }
 
 // Never in the tree: its own probability is all.
 LightSample sampleDirectional(LightRecord light, vec2 u) {
-    const float kInfinity = uintBitsToFloat(0x7f800000u);
-    if (!kSuns || light.cone_scale <= 0.0) return LightSample(-light.direction, kInfinity, light.intensity, light.pmf, true, true, kNoIndex, 0.0);
+    if (!kSuns || light.cone_scale <= 0.0)
+        return LightSample(-light.direction, infinity(), light.intensity, light.pmf, true, true, kNoIndex, infinity(), 0u);
     vec3 direction = worldFromLocal(frameFromNormal(-light.direction), sampleCone(light.cone_scale, u));
-    return LightSample(direction, kInfinity, radianceOfSun(light), pdfOfSun(light), false, true, kNoIndex, 0.0);
+    return LightSample(direction, infinity(), radianceOfSun(light), pdfOfSun(light), false, true, kNoIndex, infinity(), 0u);
 }
 
 // KHR_lights_punctual: inverse square, an optional range window, and a spot's cone.
@@ -238,7 +242,7 @@ LightSample samplePunctualLight(LightRecord light, float pmf, Surface from) {
         irradiance *= cone * cone;
     }
     if (largest(irradiance) <= 0.0) return kNoLight;
-    return LightSample(light.position - offsetOrigin(from, direction), 1.0, irradiance, pmf, true, true, kNoIndex, 0.0);
+    return LightSample(light.position - offsetOrigin(from, direction), 1.0, irradiance, pmf, true, true, kNoIndex, infinity(), 0u);
 }
 
 LightSample sampleLight(Surface from, LightAsker asker, SampleAddress address, uint dimension) {
@@ -253,8 +257,7 @@ LightSample sampleLight(Surface from, LightAsker asker, SampleAddress address, u
     if (kLightSpheres && kind == kLightSphere) return sampleSphere(light, pmf, from, u.xy);
     if (kEnvironment && kind == kLightEnvironment) {
         EnvironmentSample e = sampleEnvironment(sampleBits4(address, dimension + kDimensionEnvironment));
-        return LightSample(e.direction, uintBitsToFloat(0x7f800000u), environmentRadiance(e.direction), pmf * e.pdf, false, e.pdf > 0.0, kNoIndex,
-                           0.0);
+        return LightSample(e.direction, infinity(), environmentRadiance(e.direction), pmf * e.pdf, false, e.pdf > 0.0, kNoIndex, infinity(), e.tries);
     }
     if (kPunctualLights && kind == kLightDirectional) return sampleDirectional(light, u.xy);
     if (kPunctualLights) return samplePunctualLight(light, pmf, from);

@@ -10,26 +10,37 @@ layout(constant_id = kConstantAnyHit) const bool kAnyHit = false;
 // Not push constants: some drivers compile a program again for every value that decides a branch.
 layout(std430, binding = kBindingRayRange) readonly buffer Range { RayRange range; };
 layout(binding = kBindingRayTexels) uniform samplerBuffer ray_texels;  // RayRecord: two texels a ray
-layout(std430, binding = kBindingRayHits) writeonly buffer RayHits { RayHitRecord ray_hits[]; };  // kRayCut stays where nothing is written
+layout(std430, binding = kBindingRayHits) writeonly buffer RayHits { RayHitRecord ray_hits[]; };  // kRayTruncated stays where nothing is written
 
-bool acceptHit(uint position, float t) { return true; }
 #include "bound/traversal.glsl"
 
-uint g_ray = 0u;
+bool acceptHit(RayQuery ray, uint instance, uint position, float t) { return true; }
 
-void takeRay(uint i, out vec3 origin, out vec3 direction, out float t_min, out float t_max) {
-    g_ray = range.first + i;
-    vec4 o = texelFetch(ray_texels, int(2u * g_ray)), d = texelFetch(ray_texels, int(2u * g_ray + 1u));
-    origin = o.xyz;
-    t_min = o.w;
-    direction = d.xyz;
-    t_max = d.w;
+struct RayTask {
+    RayQuery query;
+    uint ray;  // of the list
+    TraceHit hit;
+};
+
+RayTask takeTask(uint i) {
+    uint ray = range.first + i;
+    vec4 o = texelFetch(ray_texels, int(2u * ray)), d = texelFetch(ray_texels, int(2u * ray + 1u));
+    RayQuery query = rayQuery(o.xyz, d.xyz, d.w, kAnyHit ? infinity() : 0.0);
+    query.t_min = o.w;
+    return RayTask(query, ray, kNoTraceHit);
 }
 
-void giveHit(bool gives, TraceHit found) {
-    if (!gives) return;
-    uint triangle = found.position == kNoIndex ? kNoIndex : bvhTriangleOrder(found.position);
-    ray_hits[g_ray] = RayHitRecord(triangle, found.t, found.b1, found.b2);
+RayQuery queryOf(RayTask task) { return task.query; }
+
+bool passesThrough(inout RayTask task, TraceHit found) {
+    task.hit = found;
+    return false;
+}
+
+void endTask(bool ends, RayTask task) {
+    if (!ends) return;
+    uint triangle = task.hit.position == kNoIndex ? kNoIndex : bvhTriangleOrder(task.hit.position);
+    ray_hits[task.ray] = RayHitRecord(triangle, task.hit.t, task.hit.b1, task.hit.b2);
 }
 
 #endif

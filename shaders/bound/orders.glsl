@@ -11,20 +11,20 @@
 layout(constant_id = kConstantOrders) const uint kOrders = 0u;
 layout(rgba32f, binding = kBindingOrderSums) uniform image2D order_sums;  // RGB: light; A: rays
 
-void addToTile(uint tile, vec4 value) {
+void addToTile(uvec2 pixel, uint tile, vec4 value) {
     uvec2 size = frame.view.size;
     uint columns = uint(imageSize(order_sums).x) / size.x;
-    ivec2 at = ivec2(uvec2(tile % columns, tile / columns) * size + g_address.pixel);
+    ivec2 at = ivec2(uvec2(tile % columns, tile / columns) * size + pixel);
     imageStore(order_sums, at, imageLoad(order_sums, at) + value);
 }
 
-void onLight(uint order, vec3 kept, vec3 lost) {
-    if (kClamp && largest(lost) > 0.0 && finite(lost)) addToTile(kLostTile, vec4(lost, 0.0));
-    if (order < kOrders && largest(kept) > 0.0 && finite(kept)) addToTile(order + (kClamp ? kLostTile + 1u : 0u), vec4(kept, 0.0));
+void onLight(uvec2 pixel, uint order, vec3 kept, vec3 lost) {
+    if (kClamp && largest(lost) > 0.0 && allFinite(lost)) addToTile(pixel, kLostTile, vec4(lost, 0.0));
+    if (order < kOrders && largest(kept) > 0.0 && allFinite(kept)) addToTile(pixel, order + (kClamp ? kLostTile + 1u : 0u), vec4(kept, 0.0));
 }
 
-void onRays(uint order, uint rays) {
-    if (order < kOrders && rays > 0u) addToTile(order + (kClamp ? kLostTile + 1u : 0u), vec4(vec3(0.0), float(rays)));
+void onRays(uvec2 pixel, uint order, uint rays) {
+    if (order < kOrders && rays > 0u) addToTile(pixel, order + (kClamp ? kLostTile + 1u : 0u), vec4(vec3(0.0), float(rays)));
 }
 
 #endif

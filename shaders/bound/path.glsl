@@ -15,10 +15,22 @@ layout(constant_id = kConstantMisBalance) const bool kMisBalance = false;
 layout(constant_id = kConstantClamp) const bool kClamp = false;
 layout(constant_id = kConstantRegularise) const bool kRegularise = false;
 
+// What is counted beside the light; see CounterRecord.
 struct PathCounts {
     uint bounce_rays;
     uint shadow_rays;
+    uint truncated_traversals;
+    uint environment_samples;
+    uint environment_tries;
 };
+
+const PathCounts kNothingCounted = PathCounts(0u, 0u, 0u, 0u, 0u);
+
+void countTries(LightSample light, inout PathCounts counts) {
+    if (!kEnvironment || kEnvironmentSampling != kEnvironmentRejection || light.tries == 0u) return;
+    ++counts.environment_samples;
+    counts.environment_tries += light.tries;
+}
 
 // Weight of a technique of density pdf where another one finds the same light with other_pdf; a technique that is off finds nothing.
 float misWeight(float pdf, float other_pdf) { return kMisBalance ? balanceWeight(pdf, other_pdf) : powerWeight(pdf, other_pdf); }
@@ -31,50 +43,55 @@ float weightOfScattering(float scatter_pdf, float light_pdf) {
     return kDirect == kDirectArea ? 0.0 : misWeight(scatter_pdf, light_pdf);
 }
 
-// Light that would arrive straight from a sampled light and scatter towards wo, one order of T applied to Le; `ray` asks whether it does.
-// One sample of the lights: several at what the camera sees, and several candidates of which one is kept (Talbot 2005), were both tried where there are 200 lamps: less
-// noise a sample by 1.3 to 1.6, for as much more time.
-vec3 directLight(Surface s, LightAsker asker, vec3 wo_local, uint dimension, out RayQuery ray) {
-    ray = kNoRayQuery;
-    LightSample light = sampleLight(s, asker, g_address, dimension);
-    if (!light.valid) return vec3(0.0);
-    vec3 wi = normalize(light.direction);
-    if (dot(wi, s.face_normal) <= 0.0) return vec3(0.0);
-    vec3 wi_local = localFromWorld(s.frame, wi);
-    LobeValue scattered = evaluateBsdf(s.bsdf, wo_local, wi_local);
-    if (largest(scattered.f) <= 0.0) return vec3(0.0);
-    ray = RayQuery(offsetOrigin(s, wi), light.direction, light.t_max, true, light.target, light.t_enough);
-    float weight = weightOfLightSample(light, scattered.pdf);
-    return scattered.f * light.radiance * (wi_local.z * weight / light.pdf);
-}
-
 // A path on its way.
 struct Path {
-    Hit hit;             // the next vertex; kNoIndex: it has left the scene
-    vec3 wo;             // unit, world, from there to the vertex before
-    vec3 radiance;       // found so far
+    SampleAddress address;  // of the sample that it is
+    uint rays;              // traced for it so far
+    Hit hit;                // the next vertex; kNoIndex: it has left the scene
+    vec3 wo;                // unit, world, from there to the vertex before
+    vec3 radiance;          // found so far
     vec3 throughput;
-    LightAsker from;     // the vertex before, as it asks for lights
-    float scatter_pdf;   // of the direction that led to `hit`, solid angle
-    uint bounce;         // scattered so often
+    LightAsker from;        // the vertex before, as it asks for lights
+    float scatter_pdf;      // of the direction that led to `hit`, solid angle
+    uint bounce;            // scattered so often
+    uint medium;            // that it goes through; kNoIndex: vacuum
     bool alive;
 };
 
-// wo: unit, world, away from the scene.
-Path beginPath(Hit hit, vec3 wo) { return Path(hit, wo, vec3(0.0), vec3(1.0), kNobody, 0.0, 0u, true); }
+// What the camera's ray, the first one, met. wo: unit, world, away from the scene.
+Path beginPath(SampleAddress address, Hit hit, vec3 wo) {
+    return Path(address, 1u, hit, wo, vec3(0.0), vec3(1.0), kNobody, 0.0, 0u, kNoIndex, true);
+}
+
+// Light that would arrive straight from a sampled light and scatter towards wo, one order of T applied to Le, with the ray that asks whether it does.
+// One sample of the lights: several at what the camera sees, and several candidates of which one is kept (Talbot 2005), were both tried where there are 200 lamps: less
+// noise a sample by 1.3 to 1.6, for as much more time.
+ShadowRay directLight(Surface s, LightAsker asker, vec3 wo_local, uint dimension, Path p, inout PathCounts counts) {
+    LightSample light = sampleLight(s, asker, p.address, dimension);
+    countTries(light, counts);
+    if (!light.valid) return kNoShadowRay;
+    vec3 wi = normalize(light.direction);
+    if (dot(wi, s.face_normal) <= 0.0) return kNoShadowRay;
+    vec3 wi_local = localFromWorld(s.frame, wi);
+    LobeValue scattered = evaluateBsdf(s.bsdf, wo_local, wi_local);
+    if (largest(scattered.f) <= 0.0) return kNoShadowRay;
+    float weight = weightOfLightSample(light, scattered.pdf);
+    RayQuery query = shadowQuery(offsetOrigin(s, wi), light.direction, light.t_max, light.t_enough);
+    return ShadowRay(sceneRay(query, p.address, p.rays), light.target, scattered.f * light.radiance * (wi_local.z * weight / light.pdf), true);
+}
 
 // The including shader defines what else happens to light that a path found, and to the rays that looked for light of an order: nothing, or a note.
-void onLight(uint order, vec3 kept, vec3 lost);
-void onRays(uint order, uint rays);
+void onLight(uvec2 pixel, uint order, vec3 kept, vec3 lost);
+void onRays(uvec2 pixel, uint order, uint rays);
 
 // Light found by a path that applied T `order` times: one term of the Neumann series.
-vec3 foundLight(uint order, vec3 light) {
+vec3 foundLight(uvec2 pixel, uint order, vec3 light) {
     vec3 kept = light;
     if (kClamp && order > 1u) {
         float brightest = largest(light);
         if (brightest > frame.clamp_limit) kept *= frame.clamp_limit / brightest;
     }
-    onLight(order, kept, light - kept);
+    onLight(pixel, order, kept, light - kept);
     return kept;
 }
 
@@ -96,7 +113,7 @@ void endInSky(inout Path p) {
     vec3 light = vec3(0.0);
     if (kEnvironment) light = p.throughput * weightOfMeeting(p, pdfOfSky(-p.wo)) * environmentRadiance(-p.wo);
     if (kSuns) light += p.throughput * metSuns(p);
-    if (kEnvironment || kSuns) p.radiance += foundLight(p.bounce, light);
+    if (kEnvironment || kSuns) p.radiance += foundLight(p.address.pixel, p.bounce, light);
     p.alive = false;
 }
 
@@ -109,29 +126,29 @@ bool covers(Hit hit, vec3 wo) {
     return covered;
 }
 
-// One vertex of the path: what is emitted there (added to its radiance), what arrives there from a light if `light_ray` is not blocked, and where the
-// path goes on. `path_ray` is wanted while the path is alive; the path then waits for what it hits.
-vec3 extendPath(inout Path p, out RayQuery light_ray, out RayQuery path_ray) {
-    light_ray = kNoRayQuery;
-    path_ray = kNoRayQuery;
+// One vertex of the path: what is emitted there (added to its radiance), what arrives there from a light if `to_light` is not blocked, and where the path
+// goes on. While the path is alive `onward` is wanted; the path then waits for what it hits.
+void extendPath(inout Path p, inout PathCounts counts, out ShadowRay to_light, out SceneRay onward) {
+    to_light = kNoShadowRay;
     // What the surface emits: T^bounce Le.
     Surface s = surfaceAt(p.hit, p.wo);
     if (kRegularise && p.bounce > 0u) s.bsdf = regularised(s.bsdf);
     if (kEmission || kUnlit) {
-        p.radiance += foundLight(p.bounce, p.throughput * weightOfMeeting(p, pdfOfSurface(s, p.from)) * s.emission);
+        p.radiance += foundLight(p.address.pixel, p.bounce, p.throughput * weightOfMeeting(p, pdfOfSurface(s, p.from)) * s.emission);
     }
     p.alive = p.bounce < frame.bounces;
-    if (!p.alive) return vec3(0.0);
+    if (!p.alive) return;
 
     // Sample a light.
     uint dimension = kDimensionBounce + kDimensionsPerBounce * p.bounce;
     vec3 wo_local = localFromWorld(s.frame, p.wo);
-    vec3 direct = vec3(0.0);
     LightAsker asker = askerAt(s, p.wo);
-    if (kLightTriangles || kPunctualLights || kEnvironment) direct = p.throughput * directLight(s, asker, wo_local, dimension, light_ray);
+    if (kLightTriangles || kPunctualLights || kEnvironment) to_light = directLight(s, asker, wo_local, dimension, p, counts);
+    to_light.light *= p.throughput;
+    p.rays += to_light.wanted ? 1u : 0u;
 
     // Sample the BSDF: the direction by the pair of numbers that is spread evenly together.
-    vec4 u = sample4(g_address, dimension + kDimensionScatter);
+    vec4 u = sample4(p.address, dimension + kDimensionScatter);
     BsdfSample scattered = sampleBsdf(s.bsdf, wo_local, u.z, u.xy);
     vec3 wi = worldFromLocal(s.frame, scattered.wi);
     p.throughput *= scattered.weight;
@@ -144,45 +161,36 @@ vec3 extendPath(inout Path p, out RayQuery light_ray, out RayQuery path_ray) {
         p.throughput /= survival;
     }
 
-    onRays(p.bounce + 1u, (light_ray.wanted ? 1u : 0u) + (p.alive ? 1u : 0u));
+    onRays(p.address.pixel, p.bounce + 1u, (to_light.wanted ? 1u : 0u) + (p.alive ? 1u : 0u));
 
     // Follow the ray.
     if (p.alive) {
-        path_ray = RayQuery(offsetOrigin(s, wi), wi, uintBitsToFloat(0x7f800000u), true, kNoIndex, 0.0);
+        onward = sceneRay(pathQuery(offsetOrigin(s, wi), wi), p.address, p.rays++);
         p.wo = -wi;
         p.from = asker;
         p.scatter_pdf = scattered.pdf;
         ++p.bounce;
     }
-    return direct;
 }
 
 // The same, with both rays traced.
 void extendAndTrace(inout Path p, inout PathCounts counts) {
-    RayQuery light_ray, path_ray;
+    ShadowRay to_light;
+    SceneRay onward;
     uint order = p.bounce + 1u;
-    vec3 direct = extendPath(p, light_ray, path_ray);
-    if (light_ray.wanted) {
+    extendPath(p, counts, to_light, onward);
+    if (to_light.wanted) {
         ++counts.shadow_rays;
-        if (lightArrives(light_ray)) p.radiance += foundLight(order, direct);
+        trace(to_light.ray);
+        counts.truncated_traversals += to_light.ray.truncated ? 1u : 0u;
+        if (arrives(to_light)) p.radiance += foundLight(p.address.pixel, order, to_light.light);
     }
-    if (path_ray.wanted) {
+    if (p.alive) {
         ++counts.bounce_rays;
-        p.hit = traceNearest(path_ray.origin, path_ray.direction);
+        trace(onward);
+        counts.truncated_traversals += onward.truncated ? 1u : 0u;
+        p.hit = onward.hit;
     }
-}
-
-// Radiance along wo of a path whose first vertex is `hit`.
-vec3 pathRadiance(Hit hit, vec3 wo, inout PathCounts counts) {
-    Path p = beginPath(hit, wo);
-    while (p.alive) {
-        if (p.hit.instance == kNoIndex) {
-            endInSky(p);
-        } else {
-            extendAndTrace(p, counts);
-        }
-    }
-    return p.radiance;
 }
 
 #endif

@@ -2,71 +2,68 @@
 // share of the list, and its lanes take the next ray of it as soon as theirs has ended (after Aila, Laine 2009, Understanding the Efficiency of Ray
 // Traversal on GPUs). Elsewhere a thread traces one ray.
 // The including shader has subgroup ballots, includes bound/traversal.glsl before and defines
-//     void takeRay(uint i, out vec3 origin, out vec3 direction, out float t_min, out float t_max)
-//     bool passesThrough(TraceHit found)           whether the ray taken last goes on behind what it hit
-//     void giveHit(bool gives, TraceHit found)     for the ray taken last; called by all threads of a subgroup together
+//     struct RayTask                                         a ray of the list, and what it is traced for
+//     RayTask takeTask(uint i)
+//     RayQuery queryOf(RayTask task)
+//     bool passesThrough(inout RayTask task, TraceHit found) notes what it hit; true: it goes on behind that, by its new query
+//     void endTask(bool ends, RayTask task)                  called by all threads of a subgroup together
 #ifndef LICHT_BOUND_RAY_LIST_GLSL
 #define LICHT_BOUND_RAY_LIST_GLSL
 
 // Of eight lanes, when new rays are set up: sooner, setting up is paid for too often; later, too many lanes wait (tests/bench/MEASURED.md, rays).
 const uint kIdleOfEight = 3u;
 
-// Threads beyond the list are allowed. Returns how many rays were lost to a loop that was cut.
-uint traceOneEach(uint count, bool any_hit) {
+// Threads beyond the list are allowed. Returns how many traversals were truncated.
+uint traceOneEach(uint count) {
     bool have = gl_GlobalInvocationID.x < count;
-    TraceHit found = kNoTraceHit;
+    bool truncated = false;
+    RayTask task;
     if (have) {
-        vec3 origin, direction;
-        float t_min, t_max;
-        takeRay(gl_GlobalInvocationID.x, origin, direction, t_min, t_max);
+        task = takeTask(gl_GlobalInvocationID.x);
         while (true) {
-            found = traceRay(origin, direction, t_min, t_max, any_hit);
-            if (!passesThrough(found)) break;
-            t_min = found.t;
+            TraceResult found = traceRay(queryOf(task));
+            truncated = truncated || found.truncated;
+            if (!passesThrough(task, found.hit)) break;
         }
     }
-    giveHit(have && !bvh_walk_cut, found);
-    return bvh_walk_cut ? 1u : 0u;
+    endTask(have && !truncated, task);
+    return truncated ? 1u : 0u;
 }
 
-uint traceShare(uint count, bool any_hit) {
+uint traceShare(uint count) {
     uint share = gl_SubgroupSize * kRaysPerThread;
     uint next = (gl_WorkGroupID.x * gl_NumSubgroups + gl_SubgroupID) * share;
     uint end = min(next + share, count);
-    uint enough = gl_SubgroupSize - max(gl_SubgroupSize * kIdleOfEight / 8u, 1u);  // that walk, while there are rays to take
+    uint enough = gl_SubgroupSize - max(gl_SubgroupSize * kIdleOfEight / 8u, 1u);  // that go on, while there are rays to take
     vec3 scene_lower, scene_upper;
     treeBounds(0u, scene_lower, scene_upper);
-    vec3 origin = vec3(0.0), direction = vec3(0.0);
-    float t_min = 0.0, t_max = 0.0;
-    Walk w;
-    startWalk(w, origin, direction, t_min, t_max, scene_lower, scene_upper);  // has no direction, so it has ended
-    bool have = false;  // a ray whose hit is not given yet
+    RayTask task;
+    Traversal s = startTraversal(kNoRayQuery, scene_lower, scene_upper);  // has ended
+    bool have = false;  // a ray that has not ended for its task yet
     bool any_have = true;
     while (any_have) {
-        bool ended = have && !walks(w);
-        TraceHit found = hitOfWalk(w);
-        bool again = ended && passesThrough(found);
-        giveHit(ended && !again, found);
+        bool ended = have && !goesOn(s);
+        bool again = ended && passesThrough(task, hitOf(s));
+        endTask(ended && !again, task);
         bool takes = (!have || ended) && !again;
         uvec4 takers = subgroupBallot(takes);
         uint i = next + subgroupBallotExclusiveBitCount(takers);
         next += subgroupBallotBitCount(takers);
         takes = takes && i < end;
         have = takes || again || (have && !ended);
-        if (takes) takeRay(i, origin, direction, t_min, t_max);
-        if (again) t_min = found.t;
-        if (takes || again) startWalk(w, origin, direction, t_min, t_max, scene_lower, scene_upper);
+        if (takes) task = takeTask(i);
+        if (takes || again) s = startTraversal(queryOf(task), scene_lower, scene_upper);
         any_have = subgroupBallotBitCount(subgroupBallot(have)) > 0u;
         uint most_left = next < end ? enough : 0u;
         bool go = any_have;
         while (go) {
-            walkOn(w, any_hit);
-            go = subgroupBallotBitCount(subgroupBallot(walks(w))) > most_left;
+            stepTraversal(queryOf(task), s);
+            go = subgroupBallotBitCount(subgroupBallot(goesOn(s))) > most_left;
         }
     }
     return (have ? 1u : 0u) + (subgroupElect() && next < end ? end - next : 0u);
 }
 
-uint traceList(uint count, bool any_hit) { return kRefilled ? traceShare(count, any_hit) : traceOneEach(count, any_hit); }
+uint traceList(uint count) { return kRefilled ? traceShare(count) : traceOneEach(count); }
 
 #endif

@@ -1,8 +1,9 @@
 // One sample of a pixel, and what is counted beside it.
 #ifndef LICHT_BOUND_SAMPLE_STORE_GLSL
 #define LICHT_BOUND_SAMPLE_STORE_GLSL
-#include "bound/environment.glsl"
-#include "bound/visibility.glsl"
+#include "bound/adaptive.glsl"
+#include "bound/path.glsl"
+#include "pure/finite.glsl"
 #include "shared/bindings.h"
 #include "shared/choices.h"
 #include "shared/counters.h"
@@ -10,24 +11,21 @@
 layout(rgba32f, binding = kBindingRadiance) uniform writeonly image2D radiance_image;
 layout(std430, binding = kBindingCounters) buffer Counters { CounterRecord counters; };
 
-bool finite(vec3 c) { return all(lessThan(floatBitsToUint(c) & 0x7f800000u, uvec3(0x7f800000u))); }
-
-// A driver's cut is reported with the sample that suffered.
-void countCutWalk() {
-    if (bvh_walk_cut) atomicAdd(counters.cut_walks, 1u);
-    bvh_walk_cut = false;
+SampleAddress sampleAddress(uvec2 pixel, uint frame_index) {
+    return SampleAddress(pixel, sampleIndexOf(pixel, frame.view.size.x, frame_index), frame.seed);
 }
 
-// What rejection took for all directions that this invocation has drawn.
-void countEnvironmentTries() {
-    if (!kEnvironment || kEnvironmentSampling != kEnvironmentRejection || g_environment_samples == 0u) return;
-    atomicAdd(counters.environment_samples, g_environment_samples);
-    atomicAdd(counters.environment_tries, g_environment_tries);
+// Beside the rays, which are counted where they are traced.
+void storeCounts(PathCounts counts) {
+    if (counts.truncated_traversals > 0u) atomicAdd(counters.truncated_traversals, counts.truncated_traversals);
+    if (counts.environment_samples == 0u) return;
+    atomicAdd(counters.environment_samples, counts.environment_samples);
+    atomicAdd(counters.environment_tries, counts.environment_tries);
 }
 
 // A sample that is no number counts as black and is reported, never hidden.
 void storeSample(uvec2 pixel, vec3 radiance, bool covered) {
-    if (!finite(radiance)) {
+    if (!allFinite(radiance)) {
         radiance = vec3(0.0);
         atomicAdd(counters.nonfinite_samples, 1u);
     }

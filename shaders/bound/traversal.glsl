@@ -1,10 +1,9 @@
 // Follows a ray through the wide tree of shared/bvh_layout.h. The twin of engine/bvh/traverse.cpp.
-// The including shader defines, before it includes this file,
-//     bool acceptHit(uint position, float t)
-// which says whether a triangle that the ray meets counts there (alpha, culling). `position` is in the leaves' order.
+// A ray goes in as a value and what it met comes out as one; only the stack is kept outside of both (see bvh_stack).
 #ifndef LICHT_BOUND_TRAVERSAL_GLSL
 #define LICHT_BOUND_TRAVERSAL_GLSL
 #include "bound/instance_effect.glsl"
+#include "pure/finite.glsl"
 #include "pure/intersect.glsl"
 #include "shared/bvh_layout.h"
 #include "shared/bindings.h"
@@ -18,7 +17,6 @@ layout(constant_id = kConstantBvhInStorage) const bool kBvhInStorage = false;
 layout(constant_id = kConstantBvhStackSize) const uint kBvhStackSize = 64u;
 // kConstantRaysPerThread; more than one: lanes are refilled (ray_list.glsl), as suits devices that run them in lockstep.
 layout(constant_id = kConstantRaysPerThread) const uint kRaysPerThread = 1u;
-layout(constant_id = kEffectLightSpheres) const bool kLightSpheres = false;
 const bool kRefilled = kRaysPerThread > 1u;
 
 // Positions from here on are instances.
@@ -33,28 +31,41 @@ layout(binding = kBindingBvhTriangles) uniform samplerBuffer bvh_triangles;  // 
 layout(binding = kBindingBvhNodesStorage, std430) readonly buffer bvh_nodes_storage { uvec4 bvh_node_texels[]; };
 layout(binding = kBindingBvhTrianglesStorage, std430) readonly buffer bvh_triangles_storage { vec4 bvh_triangle_texels[]; };
 
-// True once a walk of this invocation was cut short: the lavapipe of Mesa 22.3 lets all loops of an invocation together run 65,535 rounds and
-// then leaves them without a word. A round is one node and one triangle, so only huge stacks of overlapping triangles get there. Entry shaders
-// report it; a picture in which it happened is wrong.
-bool bvh_walk_cut = false;
+// A ray as the tree is asked about it: the nearest hit in [max(t_min, 0), t_max), or any that is nearer than t_enough.
+struct RayQuery {
+    vec3 origin;          // world
+    vec3 direction;       // world, of any length: distances are in its units
+    float t_min;
+    float t_max;
+    float t_enough;       // a hit nearer than this ends the traversal. 0: none does, the nearest is wanted; infinity: any does
+    uint from_instance;   // a shader that wants only what comes behind a hit reads these (acceptHit): of hits at t_min those count that are not
+    uint from_triangle;   // before, by instance and triangle
+};
 
-// Where any hit is asked for, one nearer than this ends the walk; of those behind it the nearest is wanted. Read only where round meshes are sampled as
-// one light.
-float bvh_any_before = uintBitsToFloat(0x7f800000u);
+const RayQuery kNoRayQuery = RayQuery(vec3(0.0), vec3(0.0), 0.0, 0.0, 0.0, kNoIndex, 0u);  // hits nothing
 
-// The instance whose object space the ray is in; kNoIndex: the world, and baked triangles.
-uint bvh_instance = kNoIndex;
-uint bvhInstance() { return bvh_instance; }
+RayQuery rayQuery(vec3 origin, vec3 direction, float t_max, float t_enough) { return RayQuery(origin, direction, 0.0, t_max, t_enough, kNoIndex, 0u); }
 
 struct TraceHit {
     uint position;  // in the leaves' order; kNoIndex: nothing was hit
-    uint instance;  // bvh_instance
+    uint instance;  // kNoIndex: of the world's own, baked triangles
     float t;
     float b1;       // barycentric weights of the second and third vertex
     float b2;
 };
 
 const TraceHit kNoTraceHit = TraceHit(kNoIndex, kNoIndex, 0.0, 0.0, 0.0);
+
+// truncated: the driver ended the traversal before it was done, so there may be a nearer hit. The lavapipe of Mesa 22.3 lets all loops of an invocation
+// together run 65,535 rounds and then leaves them without a word. A round is one node and one triangle, so only huge stacks of overlapping triangles get
+// there. Entry shaders report it; a picture in which it happened is wrong.
+struct TraceResult {
+    TraceHit hit;
+    bool truncated;
+};
+
+// The including shader defines whether a triangle that the ray meets counts (alpha, culling). `position` is in the leaves' order, `t` as in the query.
+bool acceptHit(RayQuery ray, uint instance, uint position, float t);
 
 uvec4 bvhNodeTexel(uint index) { return kBvhInStorage ? bvh_node_texels[index] : texelFetch(bvh_nodes, int(index)); }
 
@@ -174,16 +185,6 @@ uint firstOfGroup(uint group) {
 
 uint withoutFirst(uint group) { return group & (group - 1u); }
 
-// Takes the hit if it is nearer than the best, or as near and of a lower triangle.
-void offerHit(uint position, float triangle, TriangleHit hit, RaySetup ray, float t_min, inout TraceHit best, inout float best_triangle) {
-    bool before = kInstances && bvh_instance != best.instance ? bvh_instance + 1u < best.instance + 1u : triangle < best_triangle;
-    bool nearer = hit.t < best.t || (hit.t == best.t && before);
-    if (hit.t >= t_min && nearer && acceptHit(position, hit.t * ray.direction_scale)) {
-        best = TraceHit(position, bvh_instance, hit.t, hit.b1, hit.b2);
-        best_triangle = triangle;
-    }
-}
-
 // The box of a tree.
 void treeBounds(uint root, out vec3 lower, out vec3 upper) {
     uvec4 head = bvhNodeTexel(root * kBvhTexelsPerNode);
@@ -201,13 +202,12 @@ BoxRay widenedForInstances(BoxRay boxes, vec3 lower, vec3 upper) {
 }
 
 // A ray on its way through the tree, between two rounds. What waits is in bvh_stack.
-struct Walk {
-    vec3 origin;         // world
-    vec3 direction;
-    float t_first;       // t_min as it was asked for
-    float t_min;         // scaled as `ray` is
-    RaySetup ray;        // in the space of bvh_instance, as all below
+struct Traversal {
+    uint instance;       // in whose object space the ray is; kNoIndex: the world, and baked triangles
+    RaySetup setup;      // in that space, as all below
     BoxRay boxes;
+    float t_min;         // scaled as `setup` is
+    float t_enough;
     TraceHit best;
     float best_triangle;
     uint current;        // the node to meet next
@@ -219,155 +219,166 @@ struct Walk {
     uint base;           // entries below belong to the world, which the ray has left for an object
 };
 
+// Not a member of Traversal.
 uint bvh_stack[kBvhStackSize + 1u];  // one more, because kRefilled writes behind the last entry
 
-bool walks(Walk w) { return w.current != kBvhNone || w.triangles != 0u || (kInstances && bvh_instance != kNoIndex); }
+bool goesOn(Traversal s) { return s.current != kBvhNone || s.triangles != 0u || (kInstances && s.instance != kNoIndex); }
 
-// scene_lower, scene_upper: treeBounds(0).
-void startWalk(out Walk w, vec3 origin, vec3 direction, float t_min, float t_max, vec3 scene_lower, vec3 scene_upper) {
-    w.origin = origin;
-    w.direction = direction;
-    bool fine = setUpRay(origin, direction, scene_lower, scene_upper, w.ray);
-    fine = fine && t_min < t_max && max(floatBitsToUint(t_min) << 1u, floatBitsToUint(t_max) << 1u) <= 0xff000000u;  // no NaN
-    w.t_first = t_min;
-    w.t_min = t_min > 0.0F ? t_min * w.ray.distance_scale : 0.0F;
-    w.boxes = boxRay(origin, w.ray);
-    if (kInstances) w.boxes = widenedForInstances(w.boxes, scene_lower, scene_upper);
-    bvh_instance = kNoIndex;
-    w.best = TraceHit(kNoIndex, kNoIndex, t_max * w.ray.distance_scale, 0.0F, 0.0F);
-    w.best_triangle = -1.0F;  // nothing comes before a range's end
-    w.current = fine ? 0u : kBvhNone;
-    w.waiting = 0u;
-    w.triangles = 0u;
-    w.more_triangles = 0u;
-    w.stacked = 0u;
-    w.base = 0u;
+// scene_lower, scene_upper: treeBounds(0). A ray that is not finite or has no direction hits nothing.
+Traversal startTraversal(RayQuery ray, vec3 scene_lower, vec3 scene_upper) {
+    Traversal s;
+    bool fine = setUpRay(ray.origin, ray.direction, scene_lower, scene_upper, s.setup);
+    fine = fine && ray.t_min < ray.t_max && max(floatBitsToUint(ray.t_min) << 1u, floatBitsToUint(ray.t_max) << 1u) <= 0xff000000u;  // no NaN
+    s.t_min = ray.t_min > 0.0F ? ray.t_min * s.setup.distance_scale : 0.0F;
+    s.t_enough = ray.t_enough > 0.0F ? min(ray.t_enough, ray.t_max) * s.setup.distance_scale : 0.0F;
+    s.boxes = boxRay(ray.origin, s.setup);
+    if (kInstances) s.boxes = widenedForInstances(s.boxes, scene_lower, scene_upper);
+    s.instance = kNoIndex;
+    s.best = TraceHit(kNoIndex, kNoIndex, ray.t_max * s.setup.distance_scale, 0.0F, 0.0F);
+    s.best_triangle = -1.0F;  // nothing comes before a range's end
+    s.current = fine ? 0u : kBvhNone;
+    s.waiting = 0u;
+    s.triangles = 0u;
+    s.more_triangles = 0u;
+    s.stacked = 0u;
+    s.base = 0u;
+    return s;
 }
 
-// What was hit, with its distance along the ray as it was asked for. The walk has ended.
-TraceHit hitOfWalk(Walk w) {
-    w.best.t *= w.ray.direction_scale;
-    return w.best;
+// What was hit, with its distance as in the query. The traversal has ended.
+TraceHit hitOf(Traversal s) {
+    s.best.t *= s.setup.direction_scale;
+    return s.best;
+}
+
+// Takes the hit if it is nearer than the best, or as near and of a lower triangle.
+void offerHit(RayQuery ray, uint position, float triangle, TriangleHit hit, inout Traversal s) {
+    bool before = kInstances && s.instance != s.best.instance ? s.instance + 1u < s.best.instance + 1u : triangle < s.best_triangle;
+    bool nearer = hit.t < s.best.t || (hit.t == s.best.t && before);
+    if (hit.t >= s.t_min && nearer && acceptHit(ray, s.instance, position, hit.t * s.setup.direction_scale)) {
+        s.best = TraceHit(position, s.instance, hit.t, hit.b1, hit.b2);
+        s.best_triangle = triangle;
+    }
 }
 
 // Returns whether the group that waited before waits below a new one.
-bool stepNode(inout Walk w) {
-    NodeHits hits = meetNode(w.boxes, w.current, w.t_min, w.best.t);
+bool stepNode(inout Traversal s) {
+    NodeHits hits = meetNode(s.boxes, s.current, s.t_min, s.best.t);
     uint found = hits.triangles != 0u ? makeGroup(hits.triangle_base, hits.triangles, false) : 0u;
-    w.more_triangles = w.triangles != 0u ? found : 0u;
-    w.triangles = w.triangles != 0u ? w.triangles : found;
+    s.more_triangles = s.triangles != 0u ? found : 0u;
+    s.triangles = s.triangles != 0u ? s.triangles : found;
 
     // On to the nearest child while its siblings wait, or to the next that waits.
     uint siblings = hits.nodes & ~(1u << hits.nearest);
-    bool below = siblings != 0u && w.waiting != 0u;
-    if (siblings != 0u) w.waiting = makeGroup(hits.child_base, siblings, hits.reversed);
+    bool below = siblings != 0u && s.waiting != 0u;
+    if (siblings != 0u) s.waiting = makeGroup(hits.child_base, siblings, hits.reversed);
     if (hits.nodes != 0u) {
-        w.current = hits.child_base + hits.nearest;
+        s.current = hits.child_base + hits.nearest;
     } else {
-        w.current = w.waiting != 0u ? firstOfGroup(w.waiting) : kBvhNone;
-        w.waiting = w.waiting != 0u ? withoutFirst(w.waiting) : 0u;
-        if (w.waiting != 0u && (w.waiting & kGroupBits) == 0u) {
-            w.waiting = 0u;
-            if (w.stacked > w.base) w.waiting = bvh_stack[--w.stacked];
+        s.current = s.waiting != 0u ? firstOfGroup(s.waiting) : kBvhNone;
+        s.waiting = s.waiting != 0u ? withoutFirst(s.waiting) : 0u;
+        if (s.waiting != 0u && (s.waiting & kGroupBits) == 0u) {
+            s.waiting = 0u;
+            if (s.stacked > s.base) s.waiting = bvh_stack[--s.stacked];
         }
     }
     return below;
 }
 
 // Returns the position of the instance to enter in this round, or kBvhNone.
-uint stepTriangle(inout Walk w, bool any_hit) {
-    uint position = firstOfGroup(w.triangles);
-    w.triangles = withoutFirst(w.triangles);
-    bool left = (w.triangles & kGroupBits) != 0u;
-    w.triangles = left ? w.triangles : w.more_triangles;
-    w.more_triangles = left ? w.more_triangles : 0u;
+uint stepTriangle(RayQuery ray, inout Traversal s) {
+    uint position = firstOfGroup(s.triangles);
+    s.triangles = withoutFirst(s.triangles);
+    bool left = (s.triangles & kGroupBits) != 0u;
+    s.triangles = left ? s.triangles : s.more_triangles;
+    s.more_triangles = left ? s.more_triangles : 0u;
 
     uint texel = position * kBvhTexelsPerTriangle;
     vec4 v0 = bvhTriangleTexel(texel);
     TriangleHit hit;
-    bool met = testTriangle(w.ray, v0.xyz, bvhTriangleTexel(texel + 1u).xyz, bvhTriangleTexel(texel + 2u).xyz, hit);
+    bool met = testTriangle(s.setup, v0.xyz, bvhTriangleTexel(texel + 1u).xyz, bvhTriangleTexel(texel + 2u).xyz, hit);
     bool is_instance = kInstances && position >= kFirstInstancePosition;
-    if (met && !is_instance) offerHit(position, v0.w, hit, w.ray, w.t_min, w.best, w.best_triangle);
-    bool enough = any_hit && w.best.position != kNoIndex && (!kLightSpheres || w.best.t < bvh_any_before * w.ray.distance_scale);
-    w.triangles = enough ? 0u : w.triangles;
-    w.more_triangles = enough ? 0u : w.more_triangles;
-    w.current = enough ? kBvhNone : w.current;
-    if (kInstances && enough) bvh_instance = kNoIndex;
+    if (met && !is_instance) offerHit(ray, position, v0.w, hit, s);
+    // Nothing was hit: best.t is t_max, which t_enough does not exceed.
+    bool enough = s.t_enough > 0.0F && s.best.t < s.t_enough;
+    s.triangles = enough ? 0u : s.triangles;
+    s.more_triangles = enough ? 0u : s.more_triangles;
+    s.current = enough ? kBvhNone : s.current;
+    if (kInstances && enough) s.instance = kNoIndex;
     return is_instance ? position : kBvhNone;
 }
 
 // Into an instance, or back from one. In the round and not outside of it (as a loop that lanes leave and enter again): 10 % faster on lavapipe, where
-// lanes would wait for each other. best.t stays the same place.
-void stepInstance(inout Walk w, uint instance_met) {
+// lanes would wait for each other. best.t stays the same place, as t_enough does.
+void stepInstance(RayQuery ray, uint instance_met, inout Traversal s) {
     bool entering = instance_met != kBvhNone;
-    bool leaving = !entering && w.current == kBvhNone && w.triangles == 0u && bvh_instance != kNoIndex;
+    bool leaving = !entering && s.current == kBvhNone && s.triangles == 0u && s.instance != kNoIndex;
     if (!entering && !leaving) return;
     uint root = 0u;
-    vec3 o = w.origin, d = w.direction;
+    vec3 o = ray.origin, d = ray.direction;
     if (entering) {
-        bvh_stack[w.stacked++] = w.triangles;
-        bvh_stack[w.stacked++] = w.more_triangles;
-        bvh_stack[w.stacked++] = w.current;
-        bvh_stack[w.stacked++] = w.waiting;
-        w.base = w.stacked;
-        w.triangles = 0u;
-        w.more_triangles = 0u;
-        w.waiting = 0u;
+        bvh_stack[s.stacked++] = s.triangles;
+        bvh_stack[s.stacked++] = s.more_triangles;
+        bvh_stack[s.stacked++] = s.current;
+        bvh_stack[s.stacked++] = s.waiting;
+        s.base = s.stacked;
+        s.triangles = 0u;
+        s.more_triangles = 0u;
+        s.waiting = 0u;
         uint texel = instance_met * kBvhTexelsPerTriangle;
         vec4 x = bvhTriangleTexel(texel), y = bvhTriangleTexel(texel + 1u), z = bvhTriangleTexel(texel + 2u);
         vec4 at = bvhTriangleTexel(kFirstInstanceTexel + instance_met);
-        o = w.origin - vec3(x.w, y.w, z.w);
+        o = ray.origin - vec3(x.w, y.w, z.w);
         o = vec3(dot(x.xyz, o), dot(y.xyz, o), dot(z.xyz, o));
         d = vec3(dot(x.xyz, d), dot(y.xyz, d), dot(z.xyz, d));
         root = uint(at.x);
-        w.current = root;
-        bvh_instance = uint(at.y);
+        s.current = root;
+        s.instance = uint(at.y);
     } else {
-        bvh_instance = kNoIndex;
-        w.waiting = bvh_stack[--w.stacked];
-        w.current = bvh_stack[--w.stacked];
-        w.more_triangles = bvh_stack[--w.stacked];
-        w.triangles = bvh_stack[--w.stacked];
-        w.base = 0u;
+        s.instance = kNoIndex;
+        s.waiting = bvh_stack[--s.stacked];
+        s.current = bvh_stack[--s.stacked];
+        s.more_triangles = bvh_stack[--s.stacked];
+        s.triangles = bvh_stack[--s.stacked];
+        s.base = 0u;
     }
-    w.best.t *= w.ray.direction_scale;
+    s.best.t *= s.setup.direction_scale;
+    s.t_enough *= s.setup.direction_scale;
     vec3 lower, upper;
     treeBounds(root, lower, upper);
-    if (!setUpRay(o, d, lower, upper, w.ray)) w.current = kBvhNone;
-    w.boxes = boxRay(o, w.ray);
-    if (leaving) w.boxes = widenedForInstances(w.boxes, lower, upper);
-    w.best.t *= w.ray.distance_scale;
-    w.t_min = w.t_first > 0.0F ? w.t_first * w.ray.distance_scale : 0.0F;
+    if (!setUpRay(o, d, lower, upper, s.setup)) s.current = kBvhNone;
+    s.boxes = boxRay(o, s.setup);
+    if (leaving) s.boxes = widenedForInstances(s.boxes, lower, upper);
+    s.best.t *= s.setup.distance_scale;
+    s.t_enough *= s.setup.distance_scale;
+    s.t_min = ray.t_min > 0.0F ? ray.t_min * s.setup.distance_scale : 0.0F;
 }
 
-// A round is one node and one triangle, because drivers that run lanes in lockstep pay for both anyway. Rounds of a walk that has ended do nothing.
-void walkOn(inout Walk w, bool any_hit) {
-    uint waited = w.waiting;
-    bool below = w.current != kBvhNone && w.more_triangles == 0u && stepNode(w);
-    // A CPU stores lane by lane behind branches that it foretells badly: where nearly all lanes walk, storing for all of them makes walks 2 to 6 %
-    // faster (lavapipe). Where many idle it costs as much.
-    if (kRefilled || below) bvh_stack[w.stacked] = waited;
-    w.stacked += below ? 1u : 0u;
+// A round is one node and one triangle, because drivers that run lanes in lockstep pay for both anyway. Rounds of a traversal that has ended do nothing.
+void stepTraversal(RayQuery ray, inout Traversal s) {
+    uint waited = s.waiting;
+    bool below = s.current != kBvhNone && s.more_triangles == 0u && stepNode(s);
+    // A CPU stores lane by lane behind branches that it foretells badly: where nearly all lanes go on, storing for all of them is faster. Where many
+    // idle it costs as much.
+    if (kRefilled || below) bvh_stack[s.stacked] = waited;
+    s.stacked += below ? 1u : 0u;
     uint instance_met = kBvhNone;
-    if (w.triangles != 0u) instance_met = stepTriangle(w, any_hit);
-    if (kInstances) stepInstance(w, instance_met);
+    if (s.triangles != 0u) instance_met = stepTriangle(ray, s);
+    if (kInstances) stepInstance(ray, instance_met, s);
 }
 
-// The nearest hit in [max(t_min, 0), t_max), or with any_hit the first one found (see bvh_any_before). Equal distances go to the baked triangles, then to
-// the lower instance, then to the lower triangle index. A ray that is not finite or has no direction hits nothing.
-TraceHit traceRay(vec3 origin, vec3 direction, float t_min, float t_max, bool any_hit) {
+// Equal distances go to the baked triangles, then to the lower instance, then to the lower triangle index.
+TraceResult traceRay(RayQuery ray) {
     vec3 scene_lower, scene_upper;
     treeBounds(0u, scene_lower, scene_upper);
-    Walk w;
-    startWalk(w, origin, direction, t_min, t_max, scene_lower, scene_upper);
-    bool walking = walks(w);
-    while (walking) {
-        walkOn(w, any_hit);
-        // A variable of its own: what a loop's condition says is taken for granted behind the loop, even where the loop was cut.
-        walking = walks(w);
+    Traversal s = startTraversal(ray, scene_lower, scene_upper);
+    bool going = goesOn(s);
+    while (going) {
+        stepTraversal(ray, s);
+        // A variable of its own: what a loop's condition says is taken for granted behind the loop, even where the loop was truncated.
+        going = goesOn(s);
     }
-    bvh_walk_cut = bvh_walk_cut || walks(w);
-    return hitOfWalk(w);
+    return TraceResult(hitOf(s), goesOn(s));
 }
 
 #endif

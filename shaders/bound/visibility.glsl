@@ -1,32 +1,30 @@
-// Rays that leave surfaces, and whether two points see each other.
+// Rays through the scene, and whether two points see each other.
 #ifndef LICHT_BOUND_VISIBILITY_GLSL
 #define LICHT_BOUND_VISIBILITY_GLSL
 
 #include "bound/surface.glsl"
+#include "bound/traversal.glsl"
 #include "shared/geometry.h"
 #include "shared/index.h"
 
-// Whose rays are traced, and how many were before: what the coverage of partly transparent surfaces is decided by.
-SampleAddress g_address;
-uint g_rays_before;
+layout(constant_id = kEffectLightSpheres) const bool kLightSpheres = false;
 
-// Where a ray goes on behind a surface that is not there for it: hits are ordered by (t, instance, triangle), and only later ones count.
-float g_after_t = -1.0;
-uint g_after_instance = 0u;
-uint g_after_triangle = 0u;
+// A ray on its way through the scene: surfaces that are not there for it let it pass.
+struct SceneRay {
+    RayQuery query;
+    SampleAddress address;  // whose ray it is, and how many that sample traced before: by both the coverage of partly transparent surfaces is decided
+    uint rays_before;
+    Hit hit;                // what it met last
+    bool truncated;         // see TraceResult
+};
 
-// The including shader defines what else happens to a ray that is about to be traced: nothing, or a note of it.
-void onRay(vec3 origin, vec3 direction, float t_max, bool any_hit);
+SceneRay sceneRay(RayQuery query, SampleAddress address, uint rays_before) { return SceneRay(query, address, rays_before, kNoHit, false); }
 
-uint bvhInstance();
-uint bvhTriangleOrder(uint position);
-
-bool acceptHit(uint position, float t) {
-    bool later = kInstances && bvhInstance() != g_after_instance ? bvhInstance() + 1u > g_after_instance + 1u : bvhTriangleOrder(position) > g_after_triangle;
-    return !kAlpha || t > g_after_t || later;
+// Behind a surface that was not there a ray goes on at that very distance: only what comes later in the order of hits, (t, instance, triangle), counts.
+bool acceptHit(RayQuery ray, uint instance, uint position, float t) {
+    bool from_there = kInstances && instance != ray.from_instance ? instance + 1u > ray.from_instance + 1u : bvhTriangleOrder(position) >= ray.from_triangle;
+    return !kAlpha || t > ray.t_min || from_there;
 }
-
-#include "bound/traversal.glsl"
 
 Hit hitOf(TraceHit t) {
     if (t.position == kNoIndex) return kNoHit;
@@ -35,38 +33,30 @@ Hit hitOf(TraceHit t) {
     return Hit(instance, uint(bvhTriangleTexel(texel + 2u).w), t.b1, t.b2);
 }
 
-// What passesThrough() was asked about last.
-Hit g_hit = kNoHit;
-
-// Is what was hit not there for this ray? Then only what comes behind it counts from here on. Coverage is asked once per surface and not inside the
-// traversal, because drivers without branches would filter textures in every step of it.
-bool passesThrough(TraceHit found) {
-    g_hit = hitOf(found);
+// Is what was met not there for this ray? Then it goes on behind it. Coverage is asked once per surface and not inside the traversal, because drivers without
+// branches would filter textures in every step of it.
+bool passesThrough(inout SceneRay ray, TraceHit found) {
+    ray.hit = hitOf(found);
     bool passes = false;
-    if (kAlpha && g_hit.instance != kNoIndex && (instanceAt(g_hit.instance).flags & kInstanceAlpha) != 0u) {
-        uint triangle = instanceAt(g_hit.instance).first_triangle + g_hit.primitive;
-        passes = !covers(g_hit.instance, g_hit.primitive, g_hit.b1, g_hit.b2, coverageNumber(g_address, g_rays_before, g_hit.instance, triangle));
+    if (kAlpha && ray.hit.instance != kNoIndex && (instanceAt(ray.hit.instance).flags & kInstanceAlpha) != 0u) {
+        uint triangle = instanceAt(ray.hit.instance).first_triangle + ray.hit.primitive;
+        passes = !covers(ray.hit.instance, ray.hit.primitive, ray.hit.b1, ray.hit.b2, coverageNumber(ray.address, ray.rays_before, ray.hit.instance, triangle));
         if (passes) {
-            g_after_t = found.t;
-            g_after_instance = found.instance;
-            g_after_triangle = triangle;
+            ray.query.t_min = found.t;
+            ray.query.from_instance = found.instance;
+            ray.query.from_triangle = triangle + 1u;
         }
     }
     return passes;
 }
 
-// Nearest surface, or with any_hit some surface, that is there for this ray.
-Hit trace(vec3 origin, vec3 direction, float t_max, bool any_hit) {
-    onRay(origin, direction, t_max, any_hit);
-    g_after_t = -1.0;
-    float t_min = 0.0;
+// Until something is met that is there for this ray.
+void trace(inout SceneRay ray) {
     while (true) {
-        TraceHit found = traceRay(origin, direction, t_min, t_max, any_hit && !kAlpha);
-        if (!passesThrough(found)) break;
-        t_min = found.t;
+        TraceResult found = traceRay(ray.query);
+        ray.truncated = ray.truncated || found.truncated;
+        if (!passesThrough(ray, found.hit)) break;
     }
-    ++g_rays_before;
-    return g_hit;
 }
 
 // The point moved off its plane towards `direction` by the bound of its error, so that a ray from there cannot meet the plane again.
@@ -76,26 +66,27 @@ vec3 offsetOrigin(vec3 position, vec3 normal, float error_bound, vec3 direction)
 
 vec3 offsetOrigin(Surface s, vec3 direction) { return offsetOrigin(s.position, s.face_normal, s.error_bound, direction); }
 
-// A ray as it is asked for; `wanted` false: it is not.
-struct RayQuery {
-    vec3 origin;
-    vec3 direction;
-    float t_max;
-    bool wanted;
-    uint target;     // of a ray to a light: the instance that is to be met first; kNoIndex: nothing is to be met
-    float t_enough;  // what is met before is surely not the target
+// A ray to a light, and what it brings when it gets there.
+struct ShadowRay {
+    SceneRay ray;
+    uint target;  // the instance that is to be met first; kNoIndex: nothing is to be met
+    vec3 light;
+    bool wanted;  // false: there is no such ray
 };
 
-const RayQuery kNoRayQuery = RayQuery(vec3(0.0), vec3(0.0), 0.0, false, kNoIndex, 0.0);
+const SceneRay kNoSceneRay = SceneRay(kNoRayQuery, SampleAddress(uvec2(0u), 0u, 0u), 0u, kNoHit, false);
+const ShadowRay kNoShadowRay = ShadowRay(kNoSceneRay, kNoIndex, vec3(0.0), false);
 
-Hit traceNearest(vec3 origin, vec3 direction) { return trace(origin, direction, uintBitsToFloat(0x7f800000u), false); }
+// The nearest surface is wanted.
+RayQuery pathQuery(vec3 origin, vec3 direction) { return rayQuery(origin, direction, infinity(), 0.0); }
 
-void seekTarget(uint target, float t_enough) { bvh_any_before = target == kNoIndex ? uintBitsToFloat(0x7f800000u) : t_enough; }
-
-// Does a ray to a light get there?
-bool lightArrives(RayQuery ray) {
-    seekTarget(ray.target, ray.t_enough);
-    return trace(ray.origin, ray.direction, ray.t_max, true).instance == ray.target;
+// t_enough: what is met nearer than that is surely not the target.
+RayQuery shadowQuery(vec3 origin, vec3 direction, float t_max, float t_enough) {
+    // Surfaces that may let the ray pass are asked one after the other, from the nearest on.
+    return rayQuery(origin, direction, t_max, kAlpha ? 0.0 : kLightSpheres ? t_enough : infinity());
 }
+
+// Did it get there, now that it is traced?
+bool arrives(ShadowRay shadow) { return kLightSpheres ? shadow.ray.hit.instance == shadow.target : shadow.ray.hit.instance == kNoIndex; }
 
 #endif

@@ -15,16 +15,14 @@ layout(push_constant) uniform Push { SamplePush push; };
 shared uint s_bounce_rays;
 shared uint s_shadow_rays;
 
-void onRay(vec3 origin, vec3 direction, float t_max, bool any_hit) {}
-
 void main() {
     if (gl_LocalInvocationIndex == 0u) {
         s_bounce_rays = 0u;
         s_shadow_rays = 0u;
     }
     barrier();
-    PathCounts counts = PathCounts(0u, 0u);
-    // Kernels with queues between them (queues.cpp) draw faster where lanes run in lockstep: here some are idle at a vertex and half within a walk, there
+    PathCounts counts = kNothingCounted;
+    // Kernels with queues between them (wavefront.cpp) draw faster where lanes run in lockstep: here some are idle at a vertex and half within a walk, there
     // lanes take the next path and the next ray of a list. They take longer to compile, and memory for each path; engine/run/queue_choice.cpp says when
     // they pay, tests/bench/MEASURED.md by how much.
     // A thread follows a column of paths, the next one as soon as one ends: drivers that run lanes in lockstep would otherwise idle wherever the
@@ -33,14 +31,13 @@ void main() {
     uint rows_end = pixel.x < frame.view.size.x ? min(push.first_row + push.row_count, frame.view.size.y) : 0u;
     uint left = kPathsPerThread;
     bool covered = false;
-    Path p = beginPath(kNoHit, vec3(0.0));
+    Path p;
     bool begun = false;
     while (true) {
         if (begun && p.hit.instance == kNoIndex && p.alive) endInSky(p);
         if (!begun || !p.alive) {
             if (begun) {
                 storeSample(pixel, p.radiance, covered);
-                countCutWalk();
                 pixel.y += gl_WorkGroupSize.y;
             }
             if (left == 0u || pixel.y >= rows_end) break;
@@ -50,15 +47,13 @@ void main() {
                 pixel.y += gl_WorkGroupSize.y;
                 continue;
             }
-            g_address = SampleAddress(pixel, sampleIndexOf(pixel, frame.view.size.x, push.sample_index), frame.seed);
-            g_rays_before = 1u;  // the rasteriser's was the first
             Hit hit = gbufferHit(ivec2(pixel));
-            p = beginPath(hit, gbufferWo(hit, ivec2(pixel), push.sample_index));
+            p = beginPath(sampleAddress(pixel, push.sample_index), hit, gbufferWo(hit, ivec2(pixel), push.sample_index));
             covered = covers(hit, p.wo);
         }
         if (p.hit.instance != kNoIndex) extendAndTrace(p, counts);
     }
-    countEnvironmentTries();
+    storeCounts(counts);
     atomicAdd(s_bounce_rays, counts.bounce_rays);
     atomicAdd(s_shadow_rays, counts.shadow_rays);
     barrier();

@@ -3,7 +3,7 @@
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_ballot : require
 // What the paths found, as a picture.
-#include "bound/queues.glsl"
+#include "bound/wavefront.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -11,5 +11,5 @@ void main() {
     uvec2 pixel = pixelOfThread();
     if (!insideSlice(pixel) || !isSampled(pixel, frame.view.size.x, push.sample_index)) return;
     Hit hit = gbufferHit(ivec2(pixel));
-    storeSample(pixel, radianceOf(pathOfThread()), covers(hit, gbufferWo(hit, ivec2(pixel), push.sample_index)));
+    storeSample(pixel, unpackRadiance(pathOfThread()), covers(hit, gbufferWo(hit, ivec2(pixel), push.sample_index)));
 }

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // How many workgroups the next kernels of a bounce need.
-#include "shared/queue_records.h"
+#include "shared/path.h"
 #include "shared/ray_records.h"
 #include "shared/bindings.h"
 #include "shared/constants.h"
@@ -9,7 +9,7 @@
 
 layout(local_size_x = 1) in;
 layout(constant_id = kConstantRaysPerThread) const uint kRaysPerThread = 1u;
-layout(push_constant) uniform Push { QueuePush push; };
+layout(push_constant) uniform Push { WavefrontPush push; };
 layout(std430, binding = kBindingQueueCounts) readonly buffer QueueCounts { uint queue_counts[]; };
 layout(std430, binding = kBindingQueueGroups) writeonly buffer QueueGroups { uvec4 queue_groups[]; };  // of VkDispatchIndirectCommand, one of kCount... each
 layout(std430, binding = kBindingCounters) buffer Counters { CounterRecord counters; };

@@ -3,7 +3,7 @@
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_ballot : require
 // A path a pixel, from the G-buffer's hit.
-#include "bound/queues.glsl"
+#include "bound/wavefront.glsl"
 #include "shared/index.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -13,14 +13,13 @@ void main() {
     uint path = pathOfThread();
     bool hits = false;
     if (insideSlice(pixel) && isSampled(pixel, frame.view.size.x, push.sample_index)) {
-        addressPixel(pixel);
         Hit hit = gbufferHit(ivec2(pixel));
-        Path p = beginPath(hit, gbufferWo(hit, ivec2(pixel), push.sample_index));
+        Path p = beginPath(sampleAddress(pixel, push.sample_index), hit, gbufferWo(hit, ivec2(pixel), push.sample_index));
         hits = hit.instance != kNoIndex;
         if (!hits) endInSky(p);
-        storeRadiance(path, p.radiance, p.from.normal);
-        storePath(path, p, 1u, pixel);  // the rasteriser's ray was the first
-        storeHit(path, hit);
+        packRadiance(path, p.radiance, p.from.normal);
+        packPath(path, p);
+        packHit(path, hit);
     }
     uint place = appendTo(0u, kCountHits, hits);
     if (hits) queue_hits[place] = path;

@@ -3,39 +3,39 @@
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_ballot : require
 // Where the paths go on: those that hit something are queued for their next vertex, the others end in the sky.
-#include "bound/queues.glsl"
+#include "bound/wavefront.glsl"
 #include "shared/index.h"
 
 layout(local_size_x = 64) in;
 
-uint g_path = 0u;
+struct RayTask {
+    SceneRay ray;
+    uint path;
+};
 
-void takeRay(uint i, out vec3 origin, out vec3 direction, out float t_min, out float t_max) {
-    int at = int(kRayTexels * i);
-    uvec4 o = texelFetch(queue_ray_texels, at), d = texelFetch(queue_ray_texels, at + 1);
-    g_path = o.w;
-    if (kAlpha) addressPath(g_path, rayCountOf(g_path) - 1u);
-    g_after_t = -1.0;
-    origin = uintBitsToFloat(o.xyz);
-    direction = uintBitsToFloat(d.xyz);
-    t_min = 0.0;
-    t_max = uintBitsToFloat(0x7f800000u);
+RayTask takeTask(uint i) {
+    RayTask task;
+    task.ray = unpackRay(i, push.sample_index, task.path);
+    return task;
 }
 
-void giveHit(bool gives, TraceHit found) {
-    bool hits = gives && found.position != kNoIndex;
+RayQuery queryOf(RayTask task) { return task.ray.query; }
+
+bool passesThrough(inout RayTask task, TraceHit found) { return passesThrough(task.ray, found); }
+
+void endTask(bool ends, RayTask task) {
+    bool hits = ends && task.ray.hit.instance != kNoIndex;
     if (hits) {
-        storeHit(g_path, g_hit);
-    } else if (gives && (kEnvironment || kSuns)) {
-        if (kOrders > 0u || kClamp) addressPath(g_path, 0u);
-        Path p = loadPath(g_path);
+        packHit(task.path, task.ray.hit);
+    } else if (ends && (kEnvironment || kSuns)) {
+        Path p = unpackPath(task.path, push.sample_index);
         endInSky(p);
-        addRadiance(g_path, p.radiance);
+        addRadiance(task.path, p.radiance);
     }
     uint place = appendTo(push.bounce + 1u, kCountHits, hits);
-    if (hits) queue_hits[place] = g_path;
+    if (hits) queue_hits[place] = task.path;
 }
 
 #include "bound/ray_list.glsl"
 
-void main() { countLostRays(traceList(queueCount(push.bounce, kCountRays), false)); }
+void main() { countTruncated(traceList(queueCount(push.bounce, kCountRays))); }

@@ -21,43 +21,19 @@ layout(std430, binding = kFirstFreeBinding + 5u) writeonly buffer GlossyRays { R
 
 const RayRecord kNoRay = RayRecord(vec3(0.0), 0.0, vec3(0.0, 0.0, 1.0), -1.0);
 
-RayRecord g_shadow[kRecordedBounces];
-RayRecord g_bounce[kRecordedBounces];
-uint g_bounces;  // scattered so far
+void onLight(uvec2 pixel, uint order, vec3 kept, vec3 lost) {}
+void onRays(uvec2 pixel, uint order, uint rays) {}
 
-void onRay(vec3 origin, vec3 direction, float t_max, bool any_hit) {
-    RayRecord ray = RayRecord(origin, 0.0, direction, t_max);
-    uint vertex = min(g_bounces, kRecordedBounces - 1u);
-    if (any_hit) {
-        g_shadow[vertex] = ray;
-    } else {
-        g_bounce[vertex] = ray;
-        ++g_bounces;
-    }
-}
+RayRecord recordOf(RayQuery ray) { return RayRecord(ray.origin, ray.t_min, ray.direction, ray.t_max); }
 
-void onLight(uint order, vec3 kept, vec3 lost) {}
-void onRays(uint order, uint rays) {}
-
-// The ray that the rasteriser stands for.
-RayRecord primaryRay(vec2 pixel_position) {
-    vec3 direction = -directionToCamera(frame.view, pixel_position);
-    vec3 origin = frame.view.eye;
-    if (frame.view.orthographic != 0u) {
-        vec2 ndc = 2.0 * pixel_position / vec2(frame.view.size) - 1.0;
-        origin += ndc.x * frame.view.scale_x * frame.view.right - ndc.y * frame.view.scale_y * frame.view.up;
-    }
-    return RayRecord(origin, 0.0, direction, uintBitsToFloat(0x7f800000u));
-}
-
-RayRecord glossyRay(Hit hit, vec3 wo) {
+RayRecord glossyRay(SampleAddress address, Hit hit, vec3 wo) {
     if (hit.instance == kNoIndex) return kNoRay;
     Surface s = surfaceAt(hit, wo);
     vec3 wo_local = localFromWorld(s.frame, wo);
-    vec3 h = sampleGgxVisibleNormal(wo_local, kRecordedRoughness * kRecordedRoughness, sample4(g_address, kDimensionBounce + kDimensionScatter).yz);
+    vec3 h = sampleGgxVisibleNormal(wo_local, kRecordedRoughness * kRecordedRoughness, sample4(address, kDimensionBounce + kDimensionScatter).yz);
     vec3 wi = worldFromLocal(s.frame, 2.0 * dot(wo_local, h) * h - wo_local);
     if (dot(wi, s.face_normal) <= 0.0 || dot(wi, s.frame.normal) <= 0.0) return kNoRay;
-    return RayRecord(offsetOrigin(s, wi), 0.0, wi, uintBitsToFloat(0x7f800000u));
+    return recordOf(pathQuery(offsetOrigin(s, wi), wi));
 }
 
 void main() {
@@ -68,25 +44,36 @@ void main() {
     uint at = (tile.y * tiles_across + tile.x) * gl_WorkGroupSize.x * gl_WorkGroupSize.y + gl_LocalInvocationIndex;
     RayRecord primary = kNoRay;
     RayRecord glossy = kNoRay;
+    RayRecord shadow[kRecordedBounces], bounce[kRecordedBounces];
     for (uint i = 0u; i < kRecordedBounces; ++i) {
-        g_shadow[i] = kNoRay;
-        g_bounce[i] = kNoRay;
+        shadow[i] = kNoRay;
+        bounce[i] = kNoRay;
     }
-    g_bounces = 0u;
     if (pixel.x < frame.view.size.x && pixel.y < frame.view.size.y) {
-        g_address = SampleAddress(pixel, push.sample_index, frame.seed);
-        g_rays_before = 1u;
+        CameraRay camera_ray = pixelRay(ivec2(pixel), push.sample_index);  // which the rasteriser stands for
+        primary = recordOf(pathQuery(camera_ray.origin, camera_ray.direction));
         Hit hit = gbufferHit(ivec2(pixel));
-        primary = primaryRay(vec2(pixel) + cameraJitter(push.sample_index, frame.seed));
         vec3 wo = gbufferWo(hit, ivec2(pixel), push.sample_index);
-        PathCounts counts = PathCounts(0u, 0u);
-        pathRadiance(hit, wo, counts);
-        glossy = glossyRay(hit, wo);
+        SampleAddress address = SampleAddress(pixel, push.sample_index, frame.seed);
+        glossy = glossyRay(address, hit, wo);
+        Path p = beginPath(address, hit, wo);
+        PathCounts counts = kNothingCounted;
+        while (p.alive && p.hit.instance != kNoIndex) {
+            uint vertex = p.bounce;
+            ShadowRay to_light;
+            SceneRay onward;
+            extendPath(p, counts, to_light, onward);
+            if (to_light.wanted) shadow[vertex] = recordOf(to_light.ray.query);
+            if (!p.alive) break;
+            bounce[vertex] = recordOf(onward.query);
+            trace(onward);
+            p.hit = onward.hit;
+        }
     }
     primary_rays[at] = primary;
-    first_shadow_rays[at] = g_shadow[0];
-    first_bounce_rays[at] = g_bounce[0];
-    second_shadow_rays[at] = g_shadow[1];
-    second_bounce_rays[at] = g_bounce[1];
+    first_shadow_rays[at] = shadow[0];
+    first_bounce_rays[at] = bounce[0];
+    second_shadow_rays[at] = shadow[1];
+    second_bounce_rays[at] = bounce[1];
     glossy_rays[at] = glossy;
 }

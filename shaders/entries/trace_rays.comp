@@ -7,9 +7,8 @@ layout(local_size_x = 64) in;
 
 void main() {
     if (gl_GlobalInvocationID.x >= range.count) return;
-    vec3 origin, direction;
-    float t_min, t_max;
-    takeRay(gl_GlobalInvocationID.x, origin, direction, t_min, t_max);
-    TraceHit found = traceRay(origin, direction, t_min, t_max, kAnyHit);
-    giveHit(!bvh_walk_cut, found);
+    RayTask task = takeTask(gl_GlobalInvocationID.x);
+    TraceResult found = traceRay(task.query);
+    task.hit = found.hit;
+    endTask(!found.truncated, task);
 }

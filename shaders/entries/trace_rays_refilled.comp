@@ -7,8 +7,6 @@
 
 layout(local_size_x = 64) in;
 
-bool passesThrough(TraceHit found) { return false; }
-
 #include "bound/ray_list.glsl"
 
-void main() { traceList(range.count, kAnyHit); }
+void main() { traceList(range.count); }

@@ -3,6 +3,7 @@
 // bit wherever the device's division rounds correctly.
 #ifndef LICHT_PURE_INTERSECT_GLSL
 #define LICHT_PURE_INTERSECT_GLSL
+#include "pure/finite.glsl"
 #include "shared/bvh_numerics.h"
 
 // What a ray needs once before it meets boxes and triangles. Permuted vectors: .z is the axis along which the ray goes furthest. The direction is
@@ -27,11 +28,6 @@ struct TriangleHit {
 // Selects, because indexing by a variable is slow on drivers that keep vectors in registers.
 vec3 permuted(vec3 v, uint axis) {
     return axis == 0u ? v.yzx : (axis == 1u ? v.zxy : v);
-}
-
-// By the exponent bits: a compiler may assume that isnan() and isinf() are false.
-bool allFinite(vec3 v) {
-    return all(notEqual(floatBitsToUint(v) & 0x7f800000u, uvec3(0x7f800000u)));
 }
 
 vec3 unpermuted(vec3 v, uint axis) {

@@ -10,8 +10,8 @@ struct CounterRecord {
     uint bounce_rays;
     uint shadow_rays;
     uint nonfinite_samples;
-    uint cut_walks;            // samples in which the driver ended a traversal before it was done
-    uint environment_samples;  // directions drawn by rejection, and how many were tried for them
+    uint truncated_traversals;  // that the driver ended before they were done
+    uint environment_samples;   // directions drawn by rejection, and how many were tried for them
     uint environment_tries;
 };
 

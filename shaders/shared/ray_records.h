@@ -14,13 +14,13 @@ struct RayRecord {
 };
 
 struct RayHitRecord {
-    uint triangle;  // in the order of the scene's flattened geometry; kNoIndex: nothing; kRayCut: the walk was cut short
+    uint triangle;  // in the order of the scene's flattened geometry; kNoIndex: nothing; kRayTruncated: the traversal was truncated
     float t;
     float b1;  // barycentric weights of the second and third vertex
     float b2;
 };
 
-LICHT_CONSTANT uint kRayCut = 0xfffffffeu;
+LICHT_CONSTANT uint kRayTruncated = 0xfffffffeu;
 
 // The lists that the recording program fills, one ray a pixel each.
 LICHT_CONSTANT uint kRaysPrimary = 0u;

@@ -59,7 +59,7 @@ TEST(Differences, AreFoundWhereOneMissesOrHitsElsewhere) {
                                              {{0, 0, 1}, {1, 0, 1}, {0, 1, 1}}};
     const std::vector<RayRecord> rays(6, RayRecord{{0.2F, 0.2F, 3.0F}, 0.0F, {0, 0, -1}, kInfinity});
     const std::vector<RayHitRecord> a{{2, 2.0F, 0, 0},     {0, 3.0F, 0, 0},     {2, 2.0F, 0, 0},
-                                      {kNoIndex, 0, 0, 0}, {kNoIndex, 0, 0, 0}, {kRayCut, 0, 0, 0}};
+                                      {kNoIndex, 0, 0, 0}, {kNoIndex, 0, 0, 0}, {kRayTruncated, 0, 0, 0}};
     const std::vector<RayHitRecord> b{{2, 2.0F, 0, 0}, {1, 3.000001F, 0, 0}, {0, 3.0F, 0, 0},
                                       {2, 2.0F, 0, 0}, {kNoIndex, 5, 0, 0},  {2, 2.0F, 0, 0}};
     EXPECT_EQ(differences(triangles, rays, false, a, b), (std::vector<std::size_t>{2, 3, 5}));

@@ -28,13 +28,13 @@ TEST(Crowded, AMillionEqualTrianglesBuildAndAreHit) {
     EXPECT_EQ(expected->triangle, 0U);
     EXPECT_EQ(expected->t, 2.0F);
     const test::Hits hits = tracer.trace(rays);
-    // A driver that ends long loops must be caught at it: every ray hits triangle 0 or is reported as cut.
+    // A driver that ends long loops must be caught at it: every ray hits triangle 0 or is reported as truncated.
     int right = 0;
     for (const auto& hit : hits) {
         right += test::same(hit, expected) ? 1 : 0;
     }
-    std::cout << right << " right, " << tracer.cutWalks() << " reported as cut\n";
-    EXPECT_EQ(right + tracer.cutWalks(), static_cast<int>(hits.size()));
+    std::cout << right << " right, " << tracer.truncated() << " reported as truncated\n";
+    EXPECT_EQ(right + tracer.truncated(), static_cast<int>(hits.size()));
 }
 
 // Triangles of sizes 2^59 .. 2^-60 that lie at their own distance from one corner: the products of any two
@@ -55,7 +55,7 @@ TEST(Crowded, ASpineOf120HalvesFitsTheStack) {
     }
     test::Tracer tracer(triangles);  // its stack holds exactly Bvh::max_stack entries
     const test::Hits found = tracer.trace(rays);
-    EXPECT_EQ(tracer.cutWalks(), 0);
+    EXPECT_EQ(tracer.truncated(), 0);
     std::uint32_t most = 0;
     std::size_t different = 0;
     for (std::size_t i = 0; i < rays.size(); ++i) {

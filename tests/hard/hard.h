@@ -56,7 +56,7 @@ private:
     Hits trace(const std::vector<Ray>& rays, std::uint32_t any_hit) {
         if (device_) {
             Hits hits = device_->trace(rays, {0, any_hit, 0, 0});
-            EXPECT_EQ(device_->cutWalks(), 0);
+            EXPECT_EQ(device_->truncated(), 0);
             return hits;
         }
         Hits hits;

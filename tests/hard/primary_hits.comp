@@ -15,8 +15,6 @@ struct Outcome {
 };
 layout(std430, binding = kFirstFreeBinding) writeonly buffer OutcomeBlock { Outcome outcomes[]; };
 
-void onRay(vec3 origin, vec3 direction, float t_max, bool any_hit) {}
-
 vec2 pixelOf(uint vertex, Placement at) { return pixelFromWorld(frame.view, worldPoint(at, vertexAt(vertex).position)); }
 
 float toSegment(vec2 p, vec2 a, vec2 b) {
@@ -41,10 +39,12 @@ void main() {
     Hit seen = gbufferHit(pixel);
     outcomes[index] = Outcome(0u, 0.0, 0.0, 0.0);
     if (seen.instance == kNoIndex) return;
-    g_address = SampleAddress(uvec2(pixel), push.sample_index, frame.seed);
     vec3 target = hitPosition(seen);
     vec3 away = -directionToCamera(frame.view, target);
-    Hit traced = traceNearest(frame.view.eye + away * frame.view.z_near, away);  // nothing before the near plane is drawn
+    // Nothing before the near plane is drawn.
+    SceneRay ray = sceneRay(pathQuery(frame.view.eye + away * frame.view.z_near, away), SampleAddress(uvec2(pixel), push.sample_index, frame.seed), 0u);
+    trace(ray);
+    Hit traced = ray.hit;
     vec2 p = pixelFromWorld(frame.view, target);
     if (traced.instance == kNoIndex) {
         outcomes[index] = Outcome(3u, toEdges(p, seen), 0.0, 0.0);

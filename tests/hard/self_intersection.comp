@@ -3,8 +3,6 @@
 // Rays that leave a hit the way paths do. One thread per ray.
 #include "bound/visibility.glsl"
 
-void onRay(vec3 origin, vec3 direction, float t_max, bool any_hit) {}
-
 layout(local_size_x = 64) in;
 layout(push_constant) uniform Push { uint ray_count; } push;
 
@@ -29,7 +27,6 @@ void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i >= push.ray_count) return;
     Question q = questions[i];
-    g_address = SampleAddress(uvec2(i, 0u), 0u, 0u);
     Hit hit = Hit(q.instance, q.primitive, q.b1, q.b2);
     Surface s = surfaceAt(hit, q.direction);
     vec3 origin = offsetOrigin(s, q.direction);
@@ -39,6 +36,7 @@ void main() {
     RaySetup ray;
     TriangleHit alone;
     bool met = setUpRay(origin, q.direction, min(min(p0, p1), p2), max(max(p0, p1), p2), ray) && testTriangle(ray, p0, p1, p2, alone);
-    Hit next = traceNearest(origin, q.direction);
-    answers[i] = Answer(met && alone.t >= 0.0 ? 1u : 0u, next.instance, next.primitive, s.error_bound);
+    SceneRay next = sceneRay(pathQuery(origin, q.direction), SampleAddress(uvec2(i, 0u), 0u, 0u), 0u);
+    trace(next);
+    answers[i] = Answer(met && alone.t >= 0.0 ? 1u : 0u, next.hit.instance, next.hit.primitive, s.error_bound);
 }

@@ -13,20 +13,19 @@ layout(std430, binding = kFirstFreeBinding) buffer OutcomeBlock {
     uint lost;
 };
 
-void onRay(vec3 origin, vec3 direction, float t_max, bool any_hit) {}
-
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(pixel, imageSize(gbuffer)))) return;
     Hit seen = gbufferHit(pixel);
     if (seen.instance == kNoIndex) return;
     atomicAdd(hits, 1u);
-    g_address = SampleAddress(uvec2(pixel), push.sample_index, frame.seed);
     vec3 target = hitPosition(seen);
     vec3 away = -directionToCamera(frame.view, target);
     vec3 origin = frame.view.orthographic != 0u ? target - away * frame.view.z_far : frame.view.eye;
     // Surfaces before the near plane are not drawn.
-    Hit traced = traceNearest(origin + away * frame.view.z_near, away);
+    SceneRay ray = sceneRay(pathQuery(origin + away * frame.view.z_near, away), SampleAddress(uvec2(pixel), push.sample_index, frame.seed), 0u);
+    trace(ray);
+    Hit traced = ray.hit;
     if (traced.instance == kNoIndex) {
         atomicAdd(lost, 1u);
         return;

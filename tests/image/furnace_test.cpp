@@ -177,7 +177,7 @@ TEST(Furnace, EveryBounceCountIsExactAndFreeOfNoise) {
             }
         }
         EXPECT_EQ(renderer.statistics().nonfinite_samples, 0U);
-        EXPECT_EQ(renderer.statistics().cut_walks, 0U);
+        EXPECT_EQ(renderer.statistics().truncated_traversals, 0U);
     }
     const double picture = 4.0 * 0.999 * 0.999;
     const double most = rays * std::sqrt(3.0) / (6.0 * picture) * kRoomStripLength * edgeStrip().mean;

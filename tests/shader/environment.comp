@@ -13,9 +13,9 @@ void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i >= count) return;
     EnvironmentSample s;
-    if (given != 0u) s = EnvironmentSample(directions[i].xyz, 0.0);
+    if (given != 0u) s = EnvironmentSample(directions[i].xyz, 0.0, 0u);
     else s = sampleEnvironment(sampleBits4(SampleAddress(uvec2(i & 1023u, i >> 10u), 0u, frame.seed), 2u));
     answers[3u * i] = vec4(s.direction, s.pdf);
     answers[3u * i + 1u] = vec4(environmentRadiance(s.direction), pdfEnvironment(s.direction));
-    answers[3u * i + 2u] = vec4(float(g_environment_tries), 0.0, 0.0, 0.0);
+    answers[3u * i + 2u] = vec4(float(s.tries), 0.0, 0.0, 0.0);
 }

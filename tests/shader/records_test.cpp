@@ -18,7 +18,7 @@
 #include "licht/shared/geometry.h"
 #include "licht/shared/light.h"
 #include "licht/shared/material.h"
-#include "licht/shared/queue_records.h"
+#include "licht/shared/path.h"
 #include "licht/shared/ray_records.h"
 #include "licht/spirv/records_comp.h"
 
@@ -121,13 +121,13 @@ std::map<std::string, Record> hostRecords() {
                      LICHT_MEMBER(SamplePush, row_count)),
         LICHT_RECORD(CounterRecord, LICHT_MEMBER(CounterRecord, bounce_rays),
                      LICHT_MEMBER(CounterRecord, shadow_rays), LICHT_MEMBER(CounterRecord, nonfinite_samples),
-                     LICHT_MEMBER(CounterRecord, cut_walks), LICHT_MEMBER(CounterRecord, environment_samples),
+                     LICHT_MEMBER(CounterRecord, truncated_traversals), LICHT_MEMBER(CounterRecord, environment_samples),
                      LICHT_MEMBER(CounterRecord, environment_tries)),
         LICHT_RECORD(AdaptiveTileRecord, LICHT_MEMBER(AdaptiveTileRecord, end),
                      LICHT_MEMBER(AdaptiveTileRecord, behind)),
         LICHT_RECORD(TonemapPush, LICHT_MEMBER(TonemapPush, exposure), LICHT_MEMBER(TonemapPush, curve)),
-        LICHT_RECORD(QueuePush, LICHT_MEMBER(QueuePush, sample_index), LICHT_MEMBER(QueuePush, first_row),
-                     LICHT_MEMBER(QueuePush, row_count), LICHT_MEMBER(QueuePush, bounce)),
+        LICHT_RECORD(WavefrontPush, LICHT_MEMBER(WavefrontPush, sample_index), LICHT_MEMBER(WavefrontPush, first_row),
+                     LICHT_MEMBER(WavefrontPush, row_count), LICHT_MEMBER(WavefrontPush, bounce)),
         LICHT_RECORD(RayRecord, LICHT_MEMBER(RayRecord, origin), LICHT_MEMBER(RayRecord, t_min),
                      LICHT_MEMBER(RayRecord, direction), LICHT_MEMBER(RayRecord, t_max)),
         LICHT_RECORD(RayHitRecord, LICHT_MEMBER(RayHitRecord, triangle), LICHT_MEMBER(RayHitRecord, t),

@@ -22,25 +22,30 @@ struct Answer {
 layout(std430, binding = kFirstFreeBinding) readonly buffer Questions { Place places[]; };
 layout(std430, binding = kFirstFreeBinding + 1u) writeonly buffer Answers { Answer answers[]; };
 
-void onRay(vec3 origin, vec3 direction, float t_max, bool any_hit) {}
-
 void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i >= count) return;
     Place place = places[i / per_place];
-    g_address = SampleAddress(uvec2(i & 1023u, i >> 10u), 0u, 1u);
+    SampleAddress address = SampleAddress(uvec2(i & 1023u, i >> 10u), 0u, 1u);
     Surface from;
     from.position = place.position;
     from.error_bound = place.error_bound;
     from.face_normal = place.normal;
     from.frame = frameFromNormal(place.normal);
     LightAsker asker = LightAsker(place.position, packOctahedral(place.normal), 0u, 0u);
-    LightSample light = sampleLight(from, asker, g_address, 0u);
-    RayQuery ray = RayQuery(offsetOrigin(from, light.direction), light.direction, light.t_max, light.valid, light.target, light.t_enough);
-    bool arrives = light.valid && lightArrives(ray);
-    if (!light.valid) ray = RayQuery(place.position, place.normal, uintBitsToFloat(0x7f800000u), true, kNoIndex, 0.0);
-    Hit met = trace(ray.origin, ray.direction, ray.t_max, false);
+    LightSample light = sampleLight(from, asker, address, 0u);
+    vec3 origin = offsetOrigin(from, light.direction);
+    ShadowRay shadow = kNoShadowRay;
+    if (light.valid) {
+        shadow = ShadowRay(sceneRay(shadowQuery(origin, light.direction, light.t_max, light.t_enough), address, 0u), light.target, vec3(0.0), true);
+        trace(shadow.ray);
+    }
+    vec3 direction = light.valid ? light.direction : place.normal;
+    SceneRay nearest = sceneRay(pathQuery(light.valid ? origin : place.position, direction), address, 0u);
+    if (light.valid) nearest.query.t_max = light.t_max;
+    trace(nearest);
+    Hit met = nearest.hit;
     float looked_up = 0.0;
-    if (met.instance != kNoIndex) looked_up = pdfOfSurface(surfaceAt(met, -normalize(ray.direction)), asker);
-    answers[i] = Answer(light.direction, light.valid ? light.pdf : 0.0, looked_up, light.target, met.instance, arrives ? 1u : 0u);
+    if (met.instance != kNoIndex) looked_up = pdfOfSurface(surfaceAt(met, -normalize(direction)), asker);
+    answers[i] = Answer(light.direction, light.valid ? light.pdf : 0.0, looked_up, light.target, met.instance, light.valid && arrives(shadow) ? 1u : 0u);
 }

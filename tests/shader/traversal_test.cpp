@@ -39,7 +39,7 @@ std::vector<Ray> randomRays(int count, float half, std::uint32_t seed) {
 int expectSameHits(Tracer& tracer, const std::vector<Ray>& rays) {
     const auto found = tracer.trace(rays);
     const auto any = tracer.trace(rays, {0, 1, 0, 0});
-    EXPECT_EQ(tracer.cutWalks(), 0);
+    EXPECT_EQ(tracer.truncated(), 0);
     int hits = 0;
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const auto expected = intersectBruteForce(tracer.triangles(), rays[i]);
@@ -135,7 +135,7 @@ TEST_P(Traversal, NoRayEscapesAClosedSphere) {
             escaped += hit ? 0 : 1;
         }
         EXPECT_EQ(escaped, 0);
-        EXPECT_EQ(tracer.cutWalks(), 0);
+        EXPECT_EQ(tracer.truncated(), 0);
     }
 }
 
@@ -196,7 +196,7 @@ TEST_P(Traversal, AnEmptySceneIsMissed) {
 }
 
 // Equal triangles must all be looked at. Each ray accepts one of them alone, from the first to the last
-// position, so that a walk which ends early misses.
+// position, so that a traversal which ends early misses.
 int missesAmongEqualTriangles(Tracer& tracer, std::uint32_t stride) {
     const std::vector<Ray> rays(tracer.triangles().size() / stride, Ray{{0.1F, -0.2F, 2.0F}, {0, 0, -1}});
     const auto found = tracer.trace(rays, {0, 0, 0, stride});
@@ -217,15 +217,15 @@ TEST_P(Traversal, LongWalksReachEveryTriangle) {
     Tracer tracer = tracerOf(std::vector<BvhTriangle>(32'000 / sharing, kTriangle));
     ASSERT_LT(sharing * (tracer.triangles().size() + tracer.bvh().nodes.size()), 65'535U);
     EXPECT_EQ(missesAmongEqualTriangles(tracer, 500 / sharing), 0);
-    EXPECT_EQ(tracer.cutWalks(), 0);
+    EXPECT_EQ(tracer.truncated(), 0);
 }
 
-TEST_P(Traversal, NoWalkIsCutSilently) {
+TEST_P(Traversal, NoTraversalIsTruncatedSilently) {
     Tracer tracer = tracerOf(std::vector<BvhTriangle>(320'000, kTriangle));
     const int misses = missesAmongEqualTriangles(tracer, 5'000);
-    EXPECT_EQ(misses, tracer.cutWalks());
+    EXPECT_EQ(misses, tracer.truncated());
     if (tracer.refills()) {
-        EXPECT_EQ(misses, tracer.lostRays());
+        EXPECT_EQ(misses, tracer.reported());
     }
 }
 

@@ -42,7 +42,7 @@ Film renderFilm(const Scene& scene, const Camera& camera, const RenderSettings& 
     for (std::uint32_t i = 0; i < samples; ++i) renderer.renderSample();
     Film film = renderer.readFilm();
     EXPECT_EQ(renderer.statistics().nonfinite_samples, 0U);
-    EXPECT_EQ(renderer.statistics().cut_walks, 0U);
+    EXPECT_EQ(renderer.statistics().truncated_traversals, 0U);
     return film;
 }
 

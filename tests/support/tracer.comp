@@ -5,9 +5,8 @@
 
 void main() {
     if (gl_GlobalInvocationID.x >= push.ray_count) return;
-    vec3 origin, direction;
-    float t_min, t_max;
-    takeRay(gl_GlobalInvocationID.x, origin, direction, t_min, t_max);
-    TraceHit found = traceRay(origin, direction, t_min, t_max, push.any_hit != 0u);
-    giveHit(!bvh_walk_cut, found);
+    RayTask task = takeTask(gl_GlobalInvocationID.x);
+    TraceResult found = traceRay(task.query);
+    task.hit = found.hit;
+    endTask(!found.truncated, task);
 }

@@ -16,7 +16,7 @@
 namespace licht::test {
 namespace {
 
-constexpr std::uint32_t kCut = 0xfffffffeU;  // what stays in all words of a walk that was cut
+constexpr std::uint32_t kTruncated = 0xfffffffeU;  // what stays in all words where the traversal was truncated
 
 gpu::SpecConstants constantsOf(const GpuBvh& bvh, std::uint32_t rays_per_thread) {
     gpu::SpecConstants constants{{kConstantRaysPerThread, rays_per_thread}};
@@ -46,14 +46,14 @@ std::vector<std::optional<BvhHit>> Tracer::trace(const std::vector<Ray>& rays, T
     gpu::Device& device = gpu::testDevice();
     const gpu::Buffer input =
         gpu::uploadBuffer(device, "rays", std::span<const vec4>(data), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
-    const std::vector<uvec4> all_cut(rays.size(), uvec4(kCut));
+    const std::vector<uvec4> all_truncated(rays.size(), uvec4(kTruncated));
     const gpu::Buffer output =
-        gpu::uploadBuffer(device, "hits", std::span<const uvec4>(all_cut),
+        gpu::uploadBuffer(device, "hits", std::span<const uvec4>(all_truncated),
                           VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
-    const gpu::Buffer lost(device, "lost", sizeof(std::uint32_t), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+    const gpu::Buffer truncated(device, "truncated", sizeof(std::uint32_t), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
                            gpu::Memory::host_read);
-    std::memset(lost.mapped(), 0, sizeof(std::uint32_t));
-    std::vector<gpu::BoundResource> resources{{"rays", &input}, {"hits", &output}, {"lost", &lost}};
+    std::memset(truncated.mapped(), 0, sizeof(std::uint32_t));
+    std::vector<gpu::BoundResource> resources{{"rays", &input}, {"hits", &output}, {"truncated", &truncated}};
     device_bvh_.addTo(resources);
     const gpu::Bindings bindings(device, program_, resources);
     query.ray_count = static_cast<std::uint32_t>(rays.size());
@@ -61,7 +61,7 @@ std::vector<std::optional<BvhHit>> Tracer::trace(const std::vector<Ray>& rays, T
     commands.begin();
     const std::uint32_t threads = (query.ray_count + rays_per_thread_ - 1) / rays_per_thread_;
     commands.dispatch("trace", {program_, bindings}, query, {threads});
-    const gpu::Buffer* told = &lost;
+    const gpu::Buffer* told = &truncated;
     commands.makeVisibleToHost(std::span(&told, 1));
     commands.submit();
     commands.wait();
@@ -69,9 +69,9 @@ std::vector<std::optional<BvhHit>> Tracer::trace(const std::vector<Ray>& rays, T
         device_seconds_ += time.seconds;
     }
 
-    std::uint32_t lost_rays = 0;
-    std::memcpy(&lost_rays, lost.mapped(), sizeof(lost_rays));
-    lost_rays_ += static_cast<int>(lost_rays);
+    std::uint32_t reported = 0;
+    std::memcpy(&reported, truncated.mapped(), sizeof(reported));
+    reported_ += static_cast<int>(reported);
 
     const std::vector<std::byte> bytes = gpu::readBuffer(device, output);
     std::vector<vec4> raw(rays.size());
@@ -80,8 +80,8 @@ std::vector<std::optional<BvhHit>> Tracer::trace(const std::vector<Ray>& rays, T
     hits.reserve(rays.size());
     for (const vec4& hit : raw) {
         const auto position = std::bit_cast<std::uint32_t>(hit.x);
-        cut_walks_ += position == kCut ? 1 : 0;
-        hits.push_back(position == kNoIndex || position == kCut
+        truncated_ += position == kTruncated ? 1 : 0;
+        hits.push_back(position == kNoIndex || position == kTruncated
                            ? std::nullopt
                            : std::optional(BvhHit{bvh_.triangle_ids.at(position), hit.y, hit.z, hit.w}));
     }

@@ -8,26 +8,36 @@ layout(push_constant) uniform Push {
     uint stride;   // not 0: ray i accepts position i * stride alone
 } push;
 
-uint g_ray = 0u;
-
-bool acceptHit(uint position, float t) {
-    bool wanted = push.stride == 0u || position == g_ray * push.stride;
-    return wanted && (push.refused == 0u || position % push.refused != 0u);
-}
 #include "bound/traversal.glsl"
 
 layout(binding = kFirstFreeBinding, std430) readonly buffer rays { vec4 ray_data[]; };   // origin, t_min; direction, t_max
-layout(binding = kFirstFreeBinding + 1u, std430) writeonly buffer hits { vec4 hit_data[]; };  // position as bits, t, b1, b2; left alone where the walk was cut
+layout(binding = kFirstFreeBinding + 1u, std430) writeonly buffer hits { vec4 hit_data[]; };  // position as bits, t, b1, b2; left alone where truncated
 
-void takeRay(uint i, out vec3 origin, out vec3 direction, out float t_min, out float t_max) {
-    g_ray = i;
-    vec4 o = ray_data[2u * i], d = ray_data[2u * i + 1u];
-    origin = o.xyz;
-    t_min = o.w;
-    direction = d.xyz;
-    t_max = d.w;
+struct RayTask {
+    RayQuery query;
+    uint ray;
+    TraceHit hit;
+};
+
+// A ray's number rides in a member that nothing else reads here.
+bool acceptHit(RayQuery ray, uint instance, uint position, float t) {
+    bool wanted = push.stride == 0u || position == ray.from_triangle * push.stride;
+    return wanted && (push.refused == 0u || position % push.refused != 0u);
 }
 
-void giveHit(bool gives, TraceHit found) {
-    if (gives) hit_data[g_ray] = vec4(uintBitsToFloat(found.position), found.t, found.b1, found.b2);
+RayTask takeTask(uint i) {
+    vec4 o = ray_data[2u * i], d = ray_data[2u * i + 1u];
+    RayQuery query = RayQuery(o.xyz, d.xyz, o.w, d.w, push.any_hit != 0u ? infinity() : 0.0, kNoIndex, i);
+    return RayTask(query, i, kNoTraceHit);
+}
+
+RayQuery queryOf(RayTask task) { return task.query; }
+
+bool passesThrough(inout RayTask task, TraceHit found) {
+    task.hit = found;
+    return false;
+}
+
+void endTask(bool ends, RayTask task) {
+    if (ends) hit_data[task.ray] = vec4(uintBitsToFloat(task.hit.position), task.hit.t, task.hit.b1, task.hit.b2);
 }

@@ -33,18 +33,18 @@ public:
     /// What each ray hits. Blocks.
     std::vector<std::optional<BvhHit>> trace(const std::vector<Ray>& rays, TraceQuery query = {});
 
-    /// Walks so far that the device did not finish; trace() gives no hit for them.
-    [[nodiscard]] int cutWalks() const { return cut_walks_; }
+    /// Traversals so far that the device did not finish; trace() gives no hit for them.
+    [[nodiscard]] int truncated() const { return truncated_; }
     /// The same, as the program told it; counted where lanes are refilled.
-    [[nodiscard]] int lostRays() const { return lost_rays_; }
+    [[nodiscard]] int reported() const { return reported_; }
     [[nodiscard]] bool refills() const { return rays_per_thread_ > 1; }
     static constexpr std::uint32_t kRefills = 16;  ///< rays a thread where lanes are refilled
     /// What the device took for all rays so far.
     [[nodiscard]] double deviceSeconds() const { return device_seconds_; }
 
 private:
-    int cut_walks_ = 0;
-    int lost_rays_ = 0;
+    int truncated_ = 0;
+    int reported_ = 0;
     std::uint32_t rays_per_thread_;
     double device_seconds_ = 0.0;
     std::vector<BvhTriangle> triangles_;

@@ -5,12 +5,11 @@
 #extension GL_KHR_shader_subgroup_ballot : require
 #include "tracer.glsl"
 
-bool passesThrough(TraceHit found) { return false; }
 #include "bound/ray_list.glsl"
 
-layout(binding = kFirstFreeBinding + 2u, std430) buffer lost { uint lost_rays; };
+layout(binding = kFirstFreeBinding + 2u, std430) buffer truncated { uint truncated_traversals; };
 
 void main() {
-    uint n = traceList(push.ray_count, push.any_hit != 0u);
-    if (n > 0u) atomicAdd(lost_rays, n);
+    uint n = traceList(push.ray_count);
+    if (n > 0u) atomicAdd(truncated_traversals, n);
 }

@@ -1,0 +1,40 @@
+// The wavefront: the same estimator as path.comp, cut where rays are traced, with queues between its kernels, so that only what is alive is worked on
+// (Laine, Karras, Aila 2013, Megakernels Considered Harmful: Wavefront Path Tracing on GPUs).
+#ifndef LICHT_BOUND_WAVEFRONT_GLSL
+#define LICHT_BOUND_WAVEFRONT_GLSL
+#include "bound/gbuffer.glsl"
+#include "bound/orders.glsl"
+#include "bound/path_state.glsl"
+#include "shared/bindings.h"
+#include "shared/path.h"
+
+layout(push_constant) uniform Push { WavefrontPush push; };
+layout(std430, binding = kBindingQueueCounts) buffer QueueCounts { uint queue_counts[]; };
+layout(std430, binding = kBindingQueueHits) writeonly buffer QueueHits { uint queue_hits[]; };  // paths
+layout(binding = kBindingQueueHitTexels) uniform usamplerBuffer queue_hit_texels;
+
+// What traceList() returns.
+void countTruncated(uint traversals) {
+    if (traversals > 0u) atomicAdd(counters.truncated_traversals, traversals);
+}
+
+uint queueCount(uint bounce, uint which) { return queue_counts[kQueueCounts * bounce + which]; }
+
+// A place in a queue for every invocation that wants one; called by all together, so that one atomic serves a subgroup. The order of places is left to
+// chance; no path depends on it.
+uint appendTo(uint bounce, uint which, bool wanted) {
+    uvec4 ballot = subgroupBallot(wanted);
+    uint total = subgroupBallotBitCount(ballot);
+    uint first = 0u;
+    if (subgroupElect() && total > 0u) first = atomicAdd(queue_counts[kQueueCounts * bounce + which], total);
+    return subgroupBroadcastFirst(first) + subgroupBallotExclusiveBitCount(ballot);
+}
+
+// Paths are numbered by the tiles of 8 by 8 pixels that started them.
+uint pathOfThread() { return (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * kQueueGroup + gl_LocalInvocationIndex; }
+
+uvec2 pixelOfThread() { return uvec2(gl_GlobalInvocationID.x, push.first_row + gl_GlobalInvocationID.y); }
+
+bool insideSlice(uvec2 pixel) { return pixel.x < frame.view.size.x && pixel.y < min(push.first_row + push.row_count, frame.view.size.y); }
+
+#endif
