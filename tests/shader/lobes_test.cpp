@@ -1,4 +1,8 @@
 // What holds of every lobe (lobe_test.h), of each and of their layers.
+#include <gtest/gtest.h>
+
+#include <cstdint>
+
 #include "licht/spirv/lobes_comp.h"
 #include "lobe_test.h"
 
