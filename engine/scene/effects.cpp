@@ -36,9 +36,13 @@ bool iridescent(const Material& m) {
     return !m.unlit && m.iridescence.factor > 0.0F && thickest > 0.0F;
 }
 
-/// A thin film reflects by itself, whatever lies under it.
+bool clearcoated(const Material& m) {
+    return !m.unlit && m.clearcoat.factor > 0.0F;
+}
+
+/// A thin film and a clearcoat reflect by themselves, whatever lies under them.
 bool glossy(const Material& m) {
-    return !m.unlit && (m.metallic > 0.0F || dielectricReflects(m) || iridescent(m));
+    return !m.unlit && (m.metallic > 0.0F || dielectricReflects(m) || iridescent(m) || clearcoated(m));
 }
 
 bool hasColors(const Mesh& mesh) {
@@ -72,6 +76,11 @@ constexpr std::array<Influence, kSlotCount> kInfluence = [] {
     table[kSlotSpecularColor] = table[kSlotSpecular];
     table[kSlotIridescence] = [](const Material& m, const Mesh&) { return iridescent(m); };
     table[kSlotIridescenceThickness] = table[kSlotIridescence];
+    table[kSlotClearcoat] = [](const Material& m, const Mesh&) { return clearcoated(m); };
+    table[kSlotClearcoatRoughness] = table[kSlotClearcoat];
+    table[kSlotClearcoatNormal] = [](const Material& m, const Mesh&) {
+        return clearcoated(m) && m.clearcoat.normal_scale != 0.0F;
+    };
     return table;
 }();
 static_assert(std::find(kInfluence.begin(), kInfluence.end(), nullptr) == kInfluence.end());
@@ -287,6 +296,8 @@ constexpr std::array<EffectInfo, kEffectCount> kEffectTable{{
     {kEffectLightSpheres, "lightSpheres", "round meshes that shine are sampled as one light each",
      lightSpheresOf},
     {kEffectSuns, "suns", "directional lights that are seen as discs", sunsOf},
+    {kEffectClearcoat, "clearcoat", "clear layers over everything else",
+     [](const LookedAt& at) { return ofFirstMaterial(at, clearcoated, "has a clearcoat"); }},
 }};
 
 /// Whether row i is about the effect i.

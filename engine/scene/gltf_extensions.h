@@ -10,6 +10,7 @@ inline constexpr std::array kGltfExtensions = std::to_array<std::string_view>({
     "EXT_mesh_gpu_instancing",
     "EXT_meshopt_compression",
     "KHR_lights_punctual",
+    "KHR_materials_clearcoat",
     "KHR_materials_emissive_strength",
     "KHR_materials_ior",
     "KHR_materials_iridescence",

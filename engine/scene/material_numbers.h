@@ -32,6 +32,12 @@ inline constexpr MaterialNumber kMaterialNumbers[]{
      [](Material& m) -> float& { return m.iridescence.thickness_minimum; }},
     {"KHR_materials_iridescence", "iridescenceThicknessMaximum", 0, kMaxThinFilm,
      [](Material& m) -> float& { return m.iridescence.thickness_maximum; }},
+    {"KHR_materials_clearcoat", "clearcoatFactor", 0, 1,
+     [](Material& m) -> float& { return m.clearcoat.factor; }},
+    {"KHR_materials_clearcoat", "clearcoatRoughnessFactor", 0, 1,
+     [](Material& m) -> float& { return m.clearcoat.roughness; }},
+    {"KHR_materials_clearcoat", "clearcoatNormalTexture.scale", -kUnlimited, kUnlimited,
+     [](Material& m) -> float& { return m.clearcoat.normal_scale; }},
 };
 
 }  // namespace licht

@@ -70,13 +70,18 @@ struct Material {
     float specular = 1.0F;
     vec3 specular_color{1.0F};
     IridescenceRecord iridescence{0.0F, 1.3F, 100.0F, 400.0F};
+    ClearcoatRecord clearcoat{0.0F, 0.0F, 1.0F, 0.0F};
     std::array<TextureSlot, kSlotCount> slots{};  ///< by kSlot...
 
     /// The same light from every point and in every direction.
-    [[nodiscard]] bool emitsEvenly() const { return !slots[kSlotEmissive].present(); }
+    [[nodiscard]] bool emitsEvenly() const {
+        return !slots[kSlotEmissive].present() && clearcoat.factor == 0.0F;
+    }
     /// The normal map along whose coordinates tangents are derived; null where none bends a normal.
     [[nodiscard]] const TextureSlot* normalMap() const {
-        return slots[kSlotNormal].present() && normal_scale != 0.0F ? &slots[kSlotNormal] : nullptr;
+        const TextureSlot& coat = slots[kSlotClearcoatNormal];
+        if (slots[kSlotNormal].present() && normal_scale != 0.0F) return &slots[kSlotNormal];
+        return coat.present() && clearcoat.factor > 0.0F && clearcoat.normal_scale != 0.0F ? &coat : nullptr;
     }
 };
 

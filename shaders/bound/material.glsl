@@ -77,13 +77,24 @@ vec3 shadingNormal(MaterialRecord m, uint kind, float scale, Spot p) {
     return away < kLowestCosine ? normalize(n + (kLowestCosine - away) * 1.0001 * p.wo) : n;
 }
 
-// Whether a surface may send different light from its points or in different directions.
-const bool kUnevenEmission = kTextures;
+// Its normal in the world: the base's normal map has no part in it.
+Clearcoat clearcoatOf(MaterialRecord m, Spot p) {
+    if (!kClearcoat || !hasBlock(m, kBlockClearcoat)) return kNoClearcoat;
+    vec4 a = blockAt(m, kBlockClearcoat);
+    ClearcoatRecord c = ClearcoatRecord(a.x, a.y, a.z, a.w);
+    return Clearcoat(c.factor * sampleSlot(m, kSlotClearcoat, p.vertices, p.weights).r,
+                     alphaOf(c.roughness * sampleSlot(m, kSlotClearcoatRoughness, p.vertices, p.weights).g),
+                     shadingNormal(m, kSlotClearcoatNormal, c.normal_scale, p));
+}
 
-// Emitted towards wo, cd/m^2. Single-sided surfaces emit from their front.
+// Whether a surface may send different light from its points or in different directions.
+const bool kUnevenEmission = kTextures || kClearcoat;
+
+// Emitted towards wo, cd/m^2, as far as a clearcoat passes it. Single-sided surfaces emit from their front.
 vec3 emissionOf(MaterialRecord m, Spot p) {
     if (!kEmission || !(p.front || (m.flags & kMaterialDoubleSided) != 0u)) return vec3(0.0);
-    return m.emission * sampleSlot(m, kSlotEmissive, p.vertices, p.weights).rgb;
+    vec3 emission = m.emission * sampleSlot(m, kSlotEmissive, p.vertices, p.weights).rgb;
+    return kClearcoat ? emission * (1.0 - albedoClearcoat(clearcoatOf(m, p), p.wo)) : emission;
 }
 
 // frame: around the shading normal, in which the BSDF is local. base: the base colour.
@@ -104,7 +115,8 @@ Bsdf bsdfOf(MaterialRecord m, Spot p, Frame frame, vec3 base) {
     }
     vec3 dielectric_f0 = min(m.dielectric_f0 * specular_color, vec3(1.0)) * specular;
     Bsdf b = Bsdf(Diffuse(base * (1.0 - metallic)), plainSpecular(alphaOf(roughness), mix(dielectric_f0, base, metallic), mix(specular, 1.0, metallic),
-                                                                  largest(dielectric_f0), specular));
+                                                                  largest(dielectric_f0), specular), clearcoatOf(m, p));
+    b.clearcoat.normal = localFromWorld(frame, b.clearcoat.normal);
     if (kIridescence && hasBlock(m, kBlockIridescence)) {
         IridescenceRecord iridescence = iridescenceOf(m);
         float thickness = iridescence.thickness_maximum;

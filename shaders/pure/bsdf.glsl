@@ -1,8 +1,9 @@
-// glTF 2.0's metallic-roughness material (Appendix B of its specification): a specular layer over a diffuse layer. The lobes stand in pure/lobe/, their
-// order here. Local frame, +Z is the normal; wo and wi both point away from the surface.
+// glTF 2.0's metallic-roughness material (Appendix B of its specification): a clearcoat over a specular layer over a diffuse layer. The lobes stand in
+// pure/lobe/, their order here. Local frame, +Z is the normal; wo and wi both point away from the surface.
 #ifndef LICHT_PURE_BSDF_GLSL
 #define LICHT_PURE_BSDF_GLSL
 
+#include "pure/lobe/clearcoat.glsl"
 #include "pure/lobe/diffuse.glsl"
 #include "pure/lobe/lobe.glsl"
 #include "pure/lobe/specular.glsl"
@@ -13,6 +14,7 @@ layout(constant_id = kEffectGlossy) const bool kGlossy = true;
 struct Bsdf {
     Diffuse diffuse;
     Specular specular;
+    Clearcoat clearcoat;
 };
 
 struct BsdfSample {
@@ -22,10 +24,11 @@ struct BsdfSample {
     bool valid;   // false: absorbed
 };
 
-Bsdf lambertBsdf(vec3 albedo) { return Bsdf(Diffuse(albedo), kNoSpecular); }
+Bsdf lambertBsdf(vec3 albedo) { return Bsdf(Diffuse(albedo), kNoSpecular, kNoClearcoat); }
 
 Bsdf regularised(Bsdf b) {
     b.specular.alpha = regularisedAlpha(b.specular.alpha);
+    b.clearcoat.alpha = regularisedAlpha(b.clearcoat.alpha);
     return b;
 }
 
@@ -36,6 +39,12 @@ float shareOfSpecular(Bsdf b, vec3 wo) {
     if (specular <= 0.0 && !hasThinFilm(b.specular)) return 0.0;
     if (diffuse <= 0.0) return 1.0;
     return shareOfLobe(specular, diffuse);
+}
+
+// Share of samples spent on the clearcoat.
+float shareOfClearcoat(Bsdf b, vec3 wo) {
+    float coat = albedoClearcoat(b.clearcoat, wo);
+    return shareOfLobe(coat, (1.0 - coat) * min(largest(albedoSpecular(b.specular, wo.z)) + largest(albedoDiffuse(b.diffuse)), 1.0));
 }
 
 // For choosing lights: the width of its gloss, and what the specular layer reflects of light along the mirror direction, F G / (4 cos_o),
@@ -55,11 +64,18 @@ vec2 glossTowards(Bsdf b, float cos_o) {
 LobeValue evaluateBsdf(Bsdf b, vec3 wo, vec3 wi) {
     if (!sameSide(wo, wi)) return kNothing;
     if (!kGlossy) return evaluateDiffuse(b.diffuse, wi, 1.0);
-    return over(evaluateSpecular(b.specular, wo, wi), evaluateDiffuse(b.diffuse, wi, passSpecular(b.specular, wo.z, wi.z)), shareOfSpecular(b, wo));
+    LobeValue base = over(evaluateSpecular(b.specular, wo, wi), evaluateDiffuse(b.diffuse, wi, passSpecular(b.specular, wo.z, wi.z)), shareOfSpecular(b, wo));
+    if (!hasClearcoat(b.clearcoat)) return base;
+    return over(evaluateClearcoat(b.clearcoat, wo, wi), under(passClearcoat(b.clearcoat, wo, wi), base), shareOfClearcoat(b, wo));
 }
 
 // Of one of the lobes; may point below the surface.
 vec3 sampleDirection(Bsdf b, vec3 wo, float u_lobe, vec2 u) {
+    if (hasClearcoat(b.clearcoat)) {
+        float share = shareOfClearcoat(b, wo);
+        if (u_lobe < share) return sampleClearcoat(b.clearcoat, wo, u);
+        u_lobe = rescaledBelow(u_lobe, share);
+    }
     return u_lobe < shareOfSpecular(b, wo) ? sampleSpecular(b.specular, wo, u) : sampleDiffuse(u);
 }
 

@@ -20,7 +20,8 @@ LICHT_CONSTANT uint kEffectIridescence = 11u;   // thin films
 LICHT_CONSTANT uint kEffectInstances = 12u;     // meshes that stand in memory once and in the scene often
 LICHT_CONSTANT uint kEffectLightSpheres = 13u;  // round meshes that are sampled as one light each
 LICHT_CONSTANT uint kEffectSuns = 14u;          // directional lights that fill an angle
-LICHT_CONSTANT uint kEffectCount = 15u;
+LICHT_CONSTANT uint kEffectClearcoat = 15u;     // clear layers over everything else
+LICHT_CONSTANT uint kEffectCount = 16u;
 
 LICHT_SHARED_END
 #endif

@@ -62,5 +62,12 @@ struct IridescenceRecord {
     float thickness_maximum;  // nm, where it is 1, and without one
 };
 
+struct ClearcoatRecord {
+    float factor;  // share of the surface that it covers
+    float roughness;
+    float normal_scale;
+    float reserved;
+};
+
 LICHT_SHARED_END
 #endif

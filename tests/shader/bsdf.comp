@@ -19,7 +19,7 @@ layout(std430, binding = 1) writeonly buffer Answers { vec4 answers[]; };      /
 void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i >= count) return;
-    Bsdf b = Bsdf(Diffuse(diffuse), plainSpecular(alpha, f0, f90, dielectric_f0, dielectric_f90));
+    Bsdf b = Bsdf(Diffuse(diffuse), plainSpecular(alpha, f0, f90, dielectric_f0, dielectric_f90), kNoClearcoat);
     vec3 wo = directions[2u * i].xyz;
     vec3 wi = directions[2u * i + 1u].xyz;
     LobeValue value = evaluateBsdf(b, wo, wi);

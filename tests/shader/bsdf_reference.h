@@ -1,6 +1,7 @@
 #pragma once
 // The scattering function once more, in double precision, by the textbook formulas with angles: the naive
 // reference of pure/bsdf.glsl. And what the tests of it share.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>

@@ -22,7 +22,7 @@ layout(std430, binding = 1) writeonly buffer Answers { vec4 answers[]; };  // wi
 void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i >= count) return;
-    Bsdf b = Bsdf(Diffuse(diffuse), plainSpecular(alpha, f0, f90, dielectric_f0, dielectric_f90));
+    Bsdf b = Bsdf(Diffuse(diffuse), plainSpecular(alpha, f0, f90, dielectric_f0, dielectric_f90), kNoClearcoat);
     SampleAddress a = SampleAddress(uvec2(i & 1023u, i >> 10u), sample_index, seed);
     vec4 u = random4(a, 0u);
     BsdfSample s = sampleBsdf(b, wo.xyz, u.x, u.yz);

@@ -40,7 +40,7 @@ void main() {
     layer.film_metal_f0 = q.metal_f0;
     layer.metallic = q.metallic;
     vec4 specular = vec4(reflectanceSpecular(layer, q.cosine), passSpecular(layer, q.cosine, q.cosine));
-    Bsdf b = Bsdf(Diffuse(q.diffuse * (1.0 - q.metallic)), layer);
+    Bsdf b = Bsdf(Diffuse(q.diffuse * (1.0 - q.metallic)), layer, kNoClearcoat);
     vec4 u = random4(SampleAddress(uvec2(i & 1023u, i >> 10u), 0u, q.seed), 0u);
     vec3 wo = vec3(sqrt(1.0 - q.cosine * q.cosine), 0.0, q.cosine);
     vec3 wi = sampleCosineHemisphere(u.yw);

@@ -16,7 +16,7 @@ layout(push_constant) uniform Push {
 };
 
 Bsdf material() {
-    Bsdf b = Bsdf(Diffuse(diffuse), plainSpecular(alpha, f0, f90, largest(f0), f90));
+    Bsdf b = Bsdf(Diffuse(diffuse), plainSpecular(alpha, f0, f90, largest(f0), f90), kNoClearcoat);
     b.specular.thin_film = thinFilm(0.8, 1.4, thickness);
     b.specular.film_dielectric_f0 = f0;
     return b;

@@ -29,6 +29,7 @@ layout(std430, binding = 11) readonly buffer AdaptiveTiles { AdaptiveTileRecord 
 layout(std430, binding = 12) readonly buffer Rays { RayRecord rays[]; };
 layout(std430, binding = 13) readonly buffer RayHits { RayHitRecord ray_hits[]; };
 layout(std430, binding = 16) readonly buffer Iridescence { IridescenceRecord iridescence[]; };
+layout(std430, binding = 17) readonly buffer Clearcoats { ClearcoatRecord clearcoats[]; };
 layout(std430, binding = 14) readonly buffer Range { RayRange range; };
 
 void main() {}

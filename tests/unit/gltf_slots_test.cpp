@@ -26,7 +26,9 @@ Scene load(const SlotInfo& info, const TemporaryFolder& folder) {
     Json material{{"name", "X"},
                   {"emissiveFactor", {1, 1, 1}},
                   {"pbrMetallicRoughness", {{"metallicFactor", 0.5}}},
-                  {"extensions", {{"KHR_materials_iridescence", {{"iridescenceFactor", 1}}}}}};
+                  {"extensions",
+                   {{"KHR_materials_iridescence", {{"iridescenceFactor", 1}}},
+                    {"KHR_materials_clearcoat", {{"clearcoatFactor", 1}}}}}};
     const Json texture{{"index", 0}, {"texCoord", 2}};
     const std::string key(info.key);
     const bool in_core = info.kind == kSlotNormal || info.kind == kSlotEmissive;

@@ -1,0 +1,52 @@
+// KHR_materials_clearcoat: a clear dielectric layer of index 1.5 over everything else, with a roughness and a normal of its own.
+#ifndef LICHT_PURE_LOBE_CLEARCOAT_GLSL
+#define LICHT_PURE_LOBE_CLEARCOAT_GLSL
+
+#include "pure/frame.glsl"
+#include "pure/lobe/fresnel.glsl"
+#include "pure/lobe/ggx.glsl"
+#include "pure/lobe/lobe.glsl"
+#include "shared/effects.h"
+
+layout(constant_id = kEffectClearcoat) const bool kClearcoat = true;
+
+const float kClearcoatF0 = 0.04;  // ((1.5 - 1) / (1.5 + 1))^2
+
+struct Clearcoat {
+    float factor;  // share of the surface that it covers
+    float alpha;   // GGX width, at least kMinAlpha
+    vec3 normal;   // in the frame of what lies below
+};
+
+const Clearcoat kNoClearcoat = Clearcoat(0.0, 1.0, vec3(0.0, 0.0, 1.0));
+
+bool hasClearcoat(Clearcoat c) { return kClearcoat && c.factor > 0.0; }
+
+// What it reflects of light from or towards a direction, by that direction's cosine with its normal. Below its horizon: all.
+float reflectanceClearcoat(float factor, float cosine) { return factor * fresnelSchlick(vec3(kClearcoatF0), 1.0, cosine).x; }
+
+// wo and wi in the frame of what lies below, whose cosine the caller multiplies by: f has the coat's own over that.
+LobeValue evaluateClearcoat(Clearcoat c, vec3 wo, vec3 wi) {
+    Frame frame = frameFromNormal(c.normal);
+    vec3 o = localFromWorld(frame, wo), i = localFromWorld(frame, wi);
+    if (!sameSide(o, i)) return kNothing;
+    vec3 h = normalize(o + i);
+    GgxValue ggx = evaluateGgx(c.alpha, o, i, h);
+    return LobeValue(vec3(reflectanceClearcoat(c.factor, dot(o, h)) * ggx.f * (i.z / wi.z)), ggx.pdf);
+}
+
+// What leaves below the coat's own horizon leaves below everything: it must not pass for a sample of the other lobes.
+vec3 sampleClearcoat(Clearcoat c, vec3 wo, vec2 u) {
+    Frame frame = frameFromNormal(c.normal);
+    vec3 i = sampleGgx(c.alpha, localFromWorld(frame, wo), u);
+    return i.z > 0.0 ? worldFromLocal(frame, i) : vec3(0.0, 0.0, -1.0);
+}
+
+float albedoClearcoat(Clearcoat c, vec3 wo) { return reflectanceClearcoat(c.factor, dot(wo, c.normal)); }
+
+// Of both directions the lesser share: reciprocal, and what lies below sends at most its own times (1 - F(wo)), as the extension's document has it for wo
+// alone, so that both together never give more than they get, whatever lies below. (Kelemen's and Szirmay-Kalos' quotient holds over Lambertian
+// layers; over a mirror it gains.)
+float passClearcoat(Clearcoat c, vec3 wo, vec3 wi) { return 1.0 - max(albedoClearcoat(c, wo), albedoClearcoat(c, wi)); }
+
+#endif
