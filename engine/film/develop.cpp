@@ -21,6 +21,23 @@ std::vector<vec4> texels(std::span<const std::byte> bytes) {
     return result;
 }
 
+vec3 finish(const LayerInfo& layer, const vec3& sum, float hits, std::uint32_t samples) {
+    switch (layer.rule) {
+        case LayerRule::mean:
+            return samples > 0 ? sum / static_cast<float>(samples) : vec3(0.0F);
+        case LayerRule::mean_of_hits:
+            return hits > 0.0F ? sum / hits : vec3(layer.missed);
+        case LayerRule::direction: {
+            const float length = glm::length(sum);
+            return length > 0.0F ? sum / length : vec3(0.0F);
+        }
+        case LayerRule::last:
+        case LayerRule::picture:
+            break;
+    }
+    return sum;
+}
+
 }  // namespace
 
 void developBeauty(Film& film, std::span<const std::byte> mean_high,
@@ -39,34 +56,21 @@ void developBeauty(Film& film, std::span<const std::byte> mean_high,
     }
 }
 
-void developLayers(Film& film, const AovSet& wanted, std::uint32_t aov_samples,
-                   std::span<const std::byte> albedo_bytes, std::span<const std::byte> normal_bytes,
-                   std::span<const std::byte> motion_bytes) {
-    const std::vector<vec4> albedo = texels(albedo_bytes);
-    const std::vector<vec4> normal = texels(normal_bytes);
-    const std::vector<vec4> motion = texels(motion_bytes);
-    if (wanted.albedo) film.albedo = plane(film, 3);
-    if (wanted.normal) film.normal = plane(film, 3);
-    if (wanted.depth) film.depth = plane(film, 1);
-    if (wanted.motion) film.motion = plane(film, 2);
-    for (std::size_t i = 0; i < pixels(film); ++i) {
-        const float hits = albedo[i].w;
-        // Albedo and beauty share their edges: both are means over all samples. Normal and depth are means
-        // over what was hit, motion is that of the last sample.
-        if (wanted.albedo) {
-            const vec3 a = aov_samples > 0 ? vec3(albedo[i]) / static_cast<float>(aov_samples) : vec3(0.0F);
-            std::memcpy(&film.albedo.texels[3 * i], &a, sizeof(a));
-        }
-        if (wanted.normal) {
-            const vec3 sum(normal[i]);
-            const float length = glm::length(sum);
-            const vec3 n = length > 0.0F ? sum / length : vec3(0.0F);
-            std::memcpy(&film.normal.texels[3 * i], &n, sizeof(n));
-        }
-        if (wanted.depth) film.depth.texels[i] = hits > 0.0F ? normal[i].w / hits : kInfinity;
-        if (wanted.motion) {
-            const vec2 m(motion[i]);
-            std::memcpy(&film.motion.texels[2 * i], &m, sizeof(m));
+void developLayers(Film& film, const LayerSet& wanted, std::uint32_t samples, const LayerTexels& images) {
+    const std::vector<vec4> hits = texels(images.at(kHitsImage));
+    for (const LayerInfo& layer : layerTable()) {
+        if (!wanted.has(layer.id) || layer.rule == LayerRule::picture) continue;
+        const std::vector<vec4> sums = texels(images.at(layer.image));
+        const auto channels = static_cast<int>(layer.channelCount());
+        Image& developed = film.layer(layer.id);
+        developed = plane(film, channels);
+        for (std::size_t i = 0; i < pixels(film); ++i) {
+            vec3 sum(0.0F);
+            for (int c = 0; c < channels; ++c) sum[c] = sums[i][static_cast<int>(layer.component) + c];
+            const vec3 value = finish(layer, sum, hits[i][static_cast<int>(kHitsComponent)], samples);
+            for (int c = 0; c < channels; ++c)
+                developed.texels[static_cast<std::size_t>(channels) * i + static_cast<std::size_t>(c)] =
+                    value[c];
         }
     }
 }

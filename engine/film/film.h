@@ -1,9 +1,11 @@
 #pragma once
+#include <array>
 #include <cstdint>
 #include <vector>
 
 #include "licht/core/math.h"
 #include "licht/image/image.h"
+#include "licht/settings/layers.h"
 
 namespace licht {
 
@@ -14,12 +16,13 @@ struct Film {
     Image mean;      ///< RGBA: linear radiance, cd/m^2; alpha: share of samples that saw surface, sky or sun
     Image variance;  ///< RGB: estimated variance of the mean above (zero while samples < 2)
     Image counts;    ///< samples per pixel, where they differ; `samples` is then their mean
-    Image albedo;    ///< RGB, when asked for
-    Image normal;    ///< XYZ, unit or zero, when asked for
-    Image depth;     ///< when asked for; infinite where nothing was hit
-    Image motion;    ///< XY of the last sample, when asked for
     std::vector<Image> orders;  ///< RGB of T^i Le each, when asked for; they sum to the mean
     Image lost;                 ///< RGB: what the clamp took, where it is on
+
+    /// What passes drew, where it was asked for, else empty.
+    [[nodiscard]] const Image& layer(LayerId id) const { return layers[static_cast<std::size_t>(id)]; }
+    [[nodiscard]] Image& layer(LayerId id) { return layers[static_cast<std::size_t>(id)]; }
+    std::array<Image, kLayerCount> layers;
 };
 
 /// Means over the picture, RGB in cd/m^2, of samples that followed one another: batches tell how sure the

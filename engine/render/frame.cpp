@@ -32,7 +32,7 @@ Frame::Frame(gpu::Device& device, const Programs& programs, const GpuScene& scen
             Bound& bound = bound_.emplace_back();
             bound.gbuffer = to(programs.gbuffer);
             bound.accumulate = to(programs.accumulate);
-            if (settings.aovs.any()) bound.layers = to(programs.layers);
+            if (settings.layers.anyDrawn()) bound.layers = to(programs.layers);
             if (slot == 0) tonemap_.push_back(to(programs.tonemap));
             if (wavefront_)
                 wavefront_->bind(std::move(resources));
@@ -75,7 +75,7 @@ void Frame::recordDisplay(gpu::Commands& commands, const TonemapPush& push) cons
 }
 
 bool Frame::drawsLayers(std::uint32_t count_before) const {
-    return settings_.aovs.any() && count_before < kMostLayerSamples;
+    return settings_.layers.anyDrawn() && count_before < kMostLayerSamples;
 }
 
 std::uint32_t Frame::mostRows() const {

@@ -9,7 +9,7 @@ namespace {
 constexpr VkFormat kFloat4 = VK_FORMAT_R32G32B32A32_SFLOAT;
 
 bool wantsLayers(const RenderSettings& settings) {
-    return settings.aovs.any();
+    return settings.layers.anyDrawn();
 }
 
 constexpr auto kTable = std::to_array<ImageRow>({
@@ -20,9 +20,6 @@ constexpr auto kTable = std::to_array<ImageRow>({
     {"mean_low", kFloat4, Target::none, Lifetime::history, nullptr},
     {"squares_high", kFloat4, Target::none, Lifetime::history, nullptr},
     {"squares_low", kFloat4, Target::none, Lifetime::history, nullptr},
-    {"aov_albedo", kFloat4, Target::none, Lifetime::history, wantsLayers},
-    {"aov_normal", kFloat4, Target::none, Lifetime::history, wantsLayers},
-    {"aov_motion", kFloat4, Target::none, Lifetime::frame, wantsLayers},
     {"order_sums", kFloat4, Target::none, Lifetime::lent, nullptr},
     {"display_image", VK_FORMAT_R8G8B8A8_UNORM, Target::none, Lifetime::frame, nullptr},
 });
@@ -43,7 +40,13 @@ VkImageUsageFlags usageOf(Target target) {
 }  // namespace
 
 std::span<const ImageRow> imageTable() {
-    return kTable;
+    static const std::vector<ImageRow> kWithLayers = [] {
+        std::vector<ImageRow> table(kTable.begin(), kTable.end());
+        for (const std::string_view image : layerImages())
+            table.push_back({image, kFloat4, Target::none, Lifetime::history, wantsLayers});
+        return table;
+    }();
+    return kWithLayers;
 }
 
 Images::Images(gpu::Device& device, uvec2 size, const RenderSettings& settings,

@@ -30,7 +30,7 @@ struct ImageRow {
     bool (*wanted)(const RenderSettings&);  ///< null: always
 };
 
-/// All that a renderer can call for.
+/// All that a renderer can call for, with the images of layers, which follow from theirs.
 std::span<const ImageRow> imageTable();
 
 class Images {

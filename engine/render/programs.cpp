@@ -58,7 +58,7 @@ Programs::Programs(gpu::Device& device, const gpu::SpecConstants& constants, con
         with_paths[kConstantPathsPerThread] = paths_per_thread;
         path = gpu::Program::compute(device, "path", path_comp, with_paths);
     }
-    if (settings.aovs.any()) layers = gpu::Program::compute(device, "layers", aov_comp, constants);
+    if (settings.layers.anyDrawn()) layers = gpu::Program::compute(device, "layers", aov_comp, constants);
 }
 
 }  // namespace licht

@@ -87,7 +87,7 @@ struct Renderer::State {
     gpu::Image folded_mean;            ///< of all rounds, for the display
     gpu::Bindings folded_bindings;
     ViewRecord view{};
-    ViewRecord previous_view{};  ///< that the last sample saw
+    ViewRecord previous_view{};   ///< that the last sample saw
     RenderStatistics statistics;  ///< without what in_flight counts
 };
 
@@ -263,9 +263,11 @@ Film Renderer::readFilm() {
         if (s.order_sums) s.foldOrders();
     }
     if (s.order_sums) s.order_sums->develop(film);
-    if (s.settings.aovs.any())
-        developLayers(film, s.settings.aovs, s.layer_samples, s.read("aov_albedo"), s.read("aov_normal"),
-                      s.read("aov_motion"));
+    if (s.settings.layers.anyDrawn()) {
+        LayerTexels images;
+        for (const std::string_view image : layerImages()) images[image] = s.read(image);
+        developLayers(film, s.settings.layers, s.layer_samples, images);
+    }
     return film;
 }
 

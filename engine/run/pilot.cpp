@@ -30,7 +30,7 @@ RenderSettings pilotSettings(RenderSettings settings) {
     settings.orders = true;
     settings.adaptive = false;
     settings.queues = false;
-    settings.aovs = {};
+    settings.layers = {};
     return settings;
 }
 

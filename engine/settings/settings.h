@@ -7,20 +7,9 @@
 
 #include "licht/core/math.h"
 #include "licht/settings/choices.h"
+#include "licht/settings/layers.h"
 
 namespace licht {
-
-/// Extra layers beside the beauty picture; each one costs its pass and memory only when it is asked for.
-struct AovSet {
-    bool albedo = false;
-    bool normal = false;  ///< world-space shading normal
-    bool depth = false;   ///< distance along the camera's axis, metres
-    /// Pixels, from where the sample before the last saw a point to where the last one sees it: zero as soon
-    /// as the camera has rested for a sample. A mean over samples would keep what is long past.
-    bool motion = false;
-
-    [[nodiscard]] bool any() const { return albedo || normal || depth || motion; }
-};
 
 struct RenderSettings {
     uvec2 size{960, 540};
@@ -40,7 +29,7 @@ struct RenderSettings {
     bool regularise = false;  ///< widen glossy lobes behind a first scattering (biased)
     bool orders = false;      ///< keep a layer per order T^i Le
     bool adaptive = false;    ///< samples are drawn where a mask says so
-    AovSet aovs;
+    LayerSet layers;
     /// Compile everything, called for or not (the reference for the specialised programs).
     bool all_effects = false;
     BvhQuality bvh_quality = BvhQuality::balanced;

@@ -115,10 +115,9 @@ void addRender(CLI::App& app, RenderOptions& options) {
     addDevice(app, options.device);
     addSettings(app, table, SettingGroup::stop, options.run);
     addSettings(app, table, SettingGroup::transport, options.run);
-    addValue(app, "--aov", "LIST",
-             "Layers for .exr outputs: all, or from albedo,normal,depth,motion,variance,sampleCount,bounces",
+    addValue(app, "--aov", "LIST", "Layers for .exr outputs: all, or from " + layerNames(),
              [&options](std::string_view option, std::string_view text) {
-                 options.layers = parseLayers(option, text);
+                 options.run.render.layers = parseLayers(option, text);
              });
     addValue(app, "--report", "FILE", "Write what was done and what it cost as JSON",
              [&options](std::string_view, std::string_view text) { options.report = text; });
@@ -199,11 +198,11 @@ void checkTogether(const RenderOptions& options) {
     const auto isExr = [](const std::filesystem::path& path) {
         return lowerCase(path.extension().string()) == ".exr";
     };
-    const AovSet& aovs = options.layers.aovs;
-    const bool layers = aovs.any() || options.layers.variance || options.layers.sample_count;
+    const LayerSet& layers = options.run.render.layers;
     const bool exr = std::any_of(options.outputs.begin(), options.outputs.end(), isExr);
-    if (layers && !exr) throw InputError("--aov: layers are stored in .exr files only: add -o FILE.exr");
-    if (options.layers.orders && !exr && !options.report)
+    if (!layers.without(LayerId::bounces).empty() && !exr)
+        throw InputError("--aov: layers are stored in .exr files only: add -o FILE.exr");
+    if (layers.has(LayerId::bounces) && !exr && !options.report)
         throw InputError(
             "--aov bounces: the layers are stored in .exr files and summed up in the report: add -o FILE.exr "
             "or --report FILE");
@@ -261,7 +260,7 @@ Command parseCommandLine(int argument_count, const char* const* arguments) {
         throw InputError(
             "a subcommand is needed: render, view, info, bench, devices or compare (see 'licht --help')");
     checkTogether(render);
-    render.run.render.orders = render.layers.orders;
+    render.run.render.orders = render.run.render.layers.has(LayerId::bounces);
     return render;
 }
 

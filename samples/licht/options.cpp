@@ -70,20 +70,12 @@ vec3 parseColour(std::string_view option, std::string_view text) {
     refuseValue(option, text, "R,G,B: three numbers, 0 or greater");
 }
 
-Layers parseLayers(std::string_view option, std::string_view text) {
-    Layers layers;
-    const std::array<std::pair<std::string_view, bool*>, 7> names{{{"albedo", &layers.aovs.albedo},
-                                                                   {"normal", &layers.aovs.normal},
-                                                                   {"depth", &layers.aovs.depth},
-                                                                   {"motion", &layers.aovs.motion},
-                                                                   {"variance", &layers.variance},
-                                                                   {"sampleCount", &layers.sample_count},
-                                                                   {"bounces", &layers.orders}}};
-    if (text == "all") {
-        for (const auto& [name, wanted] : names) *wanted = true;
-        return layers;
-    }
-    for (const std::string_view part : split(text, ',')) *choose(option, part, names) = true;
+LayerSet parseLayers(std::string_view option, std::string_view text) {
+    if (text == "all") return allLayers();
+    std::vector<std::pair<std::string_view, LayerId>> names;
+    for (const LayerInfo& layer : layerTable()) names.emplace_back(layer.name, layer.id);
+    LayerSet layers;
+    for (const std::string_view part : split(text, ',')) layers.add(choose(option, part, names));
     return layers;
 }
 

@@ -27,20 +27,11 @@ struct SceneRequest {
     std::uint64_t triangles = 0;             ///< of a built-in scene that takes a count; 0: its own
 };
 
-/// Layers of an EXR file beside R G B A.
-struct Layers {
-    AovSet aovs;
-    bool variance = false;
-    bool sample_count = false;
-    bool orders = false;  ///< one per order T^i Le
-};
-
 struct RenderOptions {
     SceneRequest source;
-    RunSettings run;                             ///< size and aovs are filled in from the fields beside it
+    RunSettings run;                             ///< render.size is filled in from the field beside it
     std::vector<std::filesystem::path> outputs;  ///< .png and .exr; empty: "<scene name>.png"
     std::optional<uvec2> size;
-    Layers layers;
     std::string device;
     std::optional<std::filesystem::path> report;
     bool quiet = false;
@@ -89,7 +80,7 @@ uvec2 parseSize(std::string_view option, std::string_view text);
 /// "R,G,B": finite, not negative.
 vec3 parseColour(std::string_view option, std::string_view text);
 /// "albedo,normal,..." or "all".
-Layers parseLayers(std::string_view option, std::string_view text);
+LayerSet parseLayers(std::string_view option, std::string_view text);
 /// A path that ends in .png or .exr.
 std::filesystem::path parseOutput(std::string_view option, std::string_view text);
 

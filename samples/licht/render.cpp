@@ -120,7 +120,6 @@ int render(const RenderOptions& options) {
     gpu::Device device(device_options);
     RunSettings run = options.run;
     run.render.size = shot.size;
-    run.render.aovs = options.layers.aovs;
     const RunPlan plan = planRun(device, source.scene, shot.camera, run);
     report.settings = plan.settings;
     report.depth = plan.depth;
@@ -141,7 +140,7 @@ int render(const RenderOptions& options) {
     const double exposure = options.run.exposure.value_or(source.scene.default_exposure);
     for (const auto& output : report.outputs) {
         if (isExr(output))
-            writeExr(output, exrPicture(result.film, options.layers, reportAttributes(report)));
+            writeExr(output, exrPicture(result.film, options.run.render.layers, reportAttributes(report)));
         else
             writePng(output,
                      opaquePicture(renderer.readDisplay(options.run.tonemap, static_cast<float>(exposure))));

@@ -30,7 +30,7 @@ Camera viewer() {
 
 RenderSettings layered(std::uint32_t side, std::uint32_t bounces) {
     RenderSettings settings = test::picture(side, bounces);
-    settings.aovs.normal = true;
+    settings.layers.add(LayerId::normal);
     return settings;
 }
 
@@ -51,7 +51,7 @@ TEST(Mirrored, ASymmetricObjectGivesTheSamePicture) {
         vec3 scale(1.0F);
         scale[axis] = -1.0F;
         const Film film = renderFilm(lit(box, glm::scale(mat4(1.0F), scale)), viewer(), layered(64, 1), 4);
-        EXPECT_TRUE(test::identical(film.normal, expected.normal)) << axis;
+        EXPECT_TRUE(test::identical(film.layer(LayerId::normal), expected.layer(LayerId::normal))) << axis;
         const float most = difference(film, expected);
         std::cout << "axis " << axis << ": largest difference " << most << '\n';
         EXPECT_LE(most, 32.0F * 0x1p-24F) << axis;
@@ -84,9 +84,9 @@ TEST(Stretched, NormalsAreThoseOfTheEllipsoid) {
         const vec3 at = sphere.positions[v] * axes;
         const Film film = renderFilm(scene, downCamera(at, 1e-7F, 3.0F), layered(2, 0), 1);
         for (int pixel = 0; pixel < 4; ++pixel) {
-            const glm::dvec3 n(film.normal.at(pixel % 2, pixel / 2, 0),
-                               film.normal.at(pixel % 2, pixel / 2, 1),
-                               film.normal.at(pixel % 2, pixel / 2, 2));
+            const glm::dvec3 n(film.layer(LayerId::normal).at(pixel % 2, pixel / 2, 0),
+                               film.layer(LayerId::normal).at(pixel % 2, pixel / 2, 1),
+                               film.layer(LayerId::normal).at(pixel % 2, pixel / 2, 2));
             worst = std::max(worst, static_cast<float>(glm::length(glm::cross(glm::normalize(n), exact))));
             ++seen;
         }

@@ -69,18 +69,21 @@ TEST(Sky, SilhouettesAreSkyOrSurface) {
     place(scene, sphereMesh("ball", 0, 1.0F, 48, 24));
     scene.environment = constantEnvironment(vec3(0.75F));
     RenderSettings settings = test::picture(64, 2);
-    settings.aovs = {true, true, true, true};
+    settings.layers = {LayerId::albedo, LayerId::normal, LayerId::depth, LayerId::motion};
     const Film film =
         renderFilm(scene, lookingCamera("viewer", vec3(0, 0, 4), vec3(0.0F), 0.8F), settings, 1);
     int sky = 0;
     for (int y = 0; y < 64; ++y) {
         for (int x = 0; x < 64; ++x) {
             const float value = film.mean.at(x, y, 0);
-            const bool is_sky = !(film.depth.at(x, y, 0) < kInfinity);
+            const bool is_sky = !(film.layer(LayerId::depth).at(x, y, 0) < kInfinity);
             ASSERT_EQ(film.mean.at(x, y, 3), 1.0F);
             ASSERT_EQ(value, is_sky ? 0.75F : 0.0F);
-            ASSERT_EQ(film.normal.at(x, y, 2) == 0.0F && film.normal.at(x, y, 0) == 0.0F, is_sky);
-            ASSERT_TRUE(std::isfinite(film.motion.at(x, y, 0)) && std::isfinite(film.motion.at(x, y, 1)));
+            ASSERT_EQ(film.layer(LayerId::normal).at(x, y, 2) == 0.0F &&
+                          film.layer(LayerId::normal).at(x, y, 0) == 0.0F,
+                      is_sky);
+            ASSERT_TRUE(std::isfinite(film.layer(LayerId::motion).at(x, y, 0)) &&
+                        std::isfinite(film.layer(LayerId::motion).at(x, y, 1)));
             sky += is_sky ? 1 : 0;
         }
     }

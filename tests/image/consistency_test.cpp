@@ -164,7 +164,7 @@ TEST(Effects, AbsentOnesOwnNoBuffers) {
 // scene.glsl).
 TEST(Effects, ProgramsReadNoUniformBuffers) {
     RenderSettings settings;
-    settings.aovs.albedo = true;
+    settings.layers.add(LayerId::albedo);
     const Programs programs(gpu::testDevice(), {}, settings);
     for (const gpu::Program* program :
          {&programs.gbuffer, &programs.path, &programs.accumulate, &programs.layers, &programs.tonemap}) {

@@ -114,13 +114,13 @@ TEST(Instances, PrimaryHitsAreThoseOfTheFlattenedScene) {
         const Scene scene = crowd(kCount, at);
         RenderSettings settings = small();
         settings.bounces = 0;
-        settings.aovs = {true, true, true, false};
+        settings.layers = {LayerId::albedo, LayerId::normal, LayerId::depth};
         const Film a = renderFilm(scene, scene.cameras[0], settings, 1);
         const Film b = renderFilm(scene, scene.cameras[0], flattened(settings), 1);
-        EXPECT_LE(differing(a.albedo, b.albedo, 1e-5F), 0.002);
-        EXPECT_LE(differing(a.depth, b.depth, 1e-4F), 0.002);
+        EXPECT_LE(differing(a.layer(LayerId::albedo), b.layer(LayerId::albedo), 1e-5F), 0.002);
+        EXPECT_LE(differing(a.layer(LayerId::depth), b.layer(LayerId::depth), 1e-4F), 0.002);
         // Shading normals change quickly over the thin tubes.
-        EXPECT_LE(differing(a.normal, b.normal, 0.01F), 0.01);
+        EXPECT_LE(differing(a.layer(LayerId::normal), b.layer(LayerId::normal), 0.01F), 0.01);
     }
 }
 

@@ -22,10 +22,10 @@ void expectSameBits(const Film& a, const Film& b) {
     EXPECT_EQ(a.samples, b.samples);
     EXPECT_TRUE(identical(a.mean, b.mean));
     EXPECT_TRUE(identical(a.variance, b.variance));
-    EXPECT_TRUE(identical(a.albedo, b.albedo));
-    EXPECT_TRUE(identical(a.normal, b.normal));
-    EXPECT_TRUE(identical(a.depth, b.depth));
-    EXPECT_TRUE(identical(a.motion, b.motion));
+    EXPECT_TRUE(identical(a.layer(LayerId::albedo), b.layer(LayerId::albedo)));
+    EXPECT_TRUE(identical(a.layer(LayerId::normal), b.layer(LayerId::normal)));
+    EXPECT_TRUE(identical(a.layer(LayerId::depth), b.layer(LayerId::depth)));
+    EXPECT_TRUE(identical(a.layer(LayerId::motion), b.layer(LayerId::motion)));
     ASSERT_EQ(a.orders.size(), b.orders.size());
     for (std::size_t i = 0; i < a.orders.size(); ++i) EXPECT_TRUE(identical(a.orders[i], b.orders[i])) << i;
 }
@@ -44,7 +44,7 @@ RenderSettings settingsOf(const Kind& kind, uvec2 size) {
     settings.queues = kind.queues;
     settings.orders = kind.orders;
     settings.adaptive = kind.adaptive;
-    settings.aovs = {true, true, true, true};
+    settings.layers = {LayerId::albedo, LayerId::normal, LayerId::depth, LayerId::motion};
     return settings;
 }
 
@@ -107,11 +107,11 @@ INSTANTIATE_TEST_SUITE_P(All, Renderers,
                          [](const auto& kind) { return std::string(kind.param.name); });
 
 void expectMotion(const Film& film, vec2 pixels) {
-    ASSERT_EQ(film.motion.channels, 2);
-    for (std::size_t i = 0; i < film.motion.texels.size(); i += 2) {
+    ASSERT_EQ(film.layer(LayerId::motion).channels, 2);
+    for (std::size_t i = 0; i < film.layer(LayerId::motion).texels.size(); i += 2) {
         // Positions of some 1 m at 100 pixels a metre, in fp32.
-        ASSERT_NEAR(film.motion.texels[i], pixels.x, pixels.x == 0.0F ? 0.0F : 1e-4F);
-        ASSERT_NEAR(film.motion.texels[i + 1], pixels.y, pixels.y == 0.0F ? 0.0F : 1e-4F);
+        ASSERT_NEAR(film.layer(LayerId::motion).texels[i], pixels.x, pixels.x == 0.0F ? 0.0F : 1e-4F);
+        ASSERT_NEAR(film.layer(LayerId::motion).texels[i + 1], pixels.y, pixels.y == 0.0F ? 0.0F : 1e-4F);
     }
 }
 

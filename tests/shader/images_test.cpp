@@ -29,7 +29,7 @@ TEST(Images, WhatIsNotCalledForIsOneTexel) {
     const Images without(gpu::testDevice(), uvec2(5, 3), settings);
     EXPECT_EQ(without["mean_high"].extent().width, 5U);
     EXPECT_EQ(without["aov_normal"].extent().width, 1U);
-    settings.aovs.depth = true;
+    settings.layers.add(LayerId::depth);
     EXPECT_EQ(Images(gpu::testDevice(), uvec2(5, 3), settings)["aov_normal"].extent().width, 5U);
 }
 
