@@ -109,6 +109,7 @@ Setting limit(Setting row, float RenderSettings::*field) {
 }
 
 constexpr std::uint32_t kMaxCount32 = std::numeric_limits<std::uint32_t>::max();
+constexpr std::string_view kFlag = {};
 constexpr const char* kBouncesMeaning =
     "0: emission alone, 1: and direct light, and so on (default: {default})";
 
@@ -160,10 +161,7 @@ std::vector<Setting> samplingRows() {
                &RenderSettings::environment_sampling),
         choice({"--sampler", "HOW", sampling, kUses, "Samples from {values}", kConstantSampler},
                &RenderSettings::sampler),
-        flag({"--adaptive",
-              {},
-              sampling,
-              kUses,
+        flag({"--adaptive", kFlag, sampling, kUses,
               "Draw more samples where the noise is; --spp is then the mean over the pixels",
               kConstantAdaptive},
              &RenderSettings::adaptive),
@@ -171,11 +169,7 @@ std::vector<Setting> samplingRows() {
             {"--clamp", "LIMIT", biased, kUses,
              "Cut what one path finds after two or more scatterings down to this, in cd/m^2", kConstantClamp},
             &RenderSettings::clamp),
-        flag({"--regularise",
-              {},
-              biased,
-              kUses,
-              "Widen glossy lobes behind a path's first scattering",
+        flag({"--regularise", kFlag, biased, kUses, "Widen glossy lobes behind a path's first scattering",
               kConstantRegularise},
              &RenderSettings::regularise)};
 }
@@ -188,28 +182,18 @@ std::vector<Setting> expertRows() {
             count({"--first-sample", "N", expert, kForRun | kInFile,
                    "Index of the first sample: ranges rendered apart merge to the whole"},
                   &RenderSettings::first_sample, 0, kMostSamples - 1),
-            flag({"--all-effects",
-                  {},
-                  expert,
-                  kForRun,
+            flag({"--all-effects", kFlag, expert, kForRun,
                   "Compile every effect, whether the scene calls for it or not"},
                  &RenderSettings::all_effects),
             choice({"--bvh", "QUALITY", expert, kForRun,
                     "How well the BVH is built: {values}; better trees take longer to build"},
                    &RenderSettings::bvh_quality),
-            choice({"--queues",
-                    {},
-                    expert,
-                    kForRun,
+            choice({"--queues", kFlag, expert, kForRun,
                     "Follow paths by small kernels with queues between them instead of one kernel, the same "
                     "samples: --queues={values}",
-                    std::nullopt,
-                    nameOf(QueueUse::on)},
+                    std::nullopt, nameOf(QueueUse::on)},
                    &RunSettings::queues),
-            flag({"--flatten-instances",
-                  {},
-                  expert,
-                  kForRun,
+            flag({"--flatten-instances", kFlag, expert, kForRun,
                   "Store every instance of a mesh as triangles of its own"},
                  &RenderSettings::flatten_instances)};
 }

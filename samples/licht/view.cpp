@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 
 #include "licht/core/error.h"
 #include "licht/render/renderer.h"
@@ -17,8 +16,8 @@ namespace licht {
 namespace {
 
 constexpr double kSecondsBetweenTitles = 0.5;
-constexpr double kSecondsAsleep =
-    0.1;  ///< between looks at a window that cannot be drawn on, or a picture that is done
+/// Between looks at a window that cannot be drawn on, or at a picture that is done.
+constexpr double kSecondsAsleep = 0.1;
 
 std::string title(const std::string& scene, const Advance& advance, const ViewState& state) {
     std::string text = fmt::format("{} - {} samples, {:.1f} ms each", scene, advance.samples,
@@ -56,8 +55,7 @@ int view(const ViewOptions& options) {
          ++frame) {
         const uvec2 pixels = window.framebufferSize();
         const bool visible = pixels.x > 0 && pixels.y > 0;
-        const bool full =
-            renderer.samples() == std::numeric_limits<std::uint32_t>::max() - settings.first_sample;
+        const bool full = renderer.samples() == kMostSamples - settings.first_sample;
         input = visible && !full ? window.poll() : window.waitAndPoll(kSecondsAsleep);
         if (!visible) continue;
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "licht/image/files.h"
+#include "licht/run/plan.h"
 #include "licht/run/render_loop.h"
 #include "licht/scene/gltf.h"
 #include "licht/settings/settings.h"
@@ -28,15 +29,15 @@ static Scene lampOverFloor() {
 
 int main(int argument_count, char** arguments) try {
     const Scene scene = argument_count > 1 ? loadGltf(arguments[1]) : lampOverFloor();
-    RenderSettings settings;
-    settings.size = {320, 180};
+    RunSettings run;
+    run.render.size = {320, 180};
+    run.samples = 16;
     const Camera camera =
         scene.cameras.empty() ? framingCamera(sceneBounds(scene), 16.0F / 9.0F) : scene.cameras[0];
     gpu::Device device(gpu::DeviceOptions{});
-    Renderer renderer(device, scene, camera, settings);
-    StopRules rules;
-    rules.samples = 16;
-    const LoopResult result = renderUntil(renderer, settings, rules);
+    const RunPlan plan = planRun(device, scene, camera, run);
+    Renderer renderer(device, scene, camera, plan.settings);
+    const LoopResult result = renderUntil(renderer, plan.settings, plan.rules);
     writePng("minimal.png", renderer.readDisplay(Tonemap::neutral, 0.0F));
     std::printf("minimal.png: 16 samples, relative error %.3f\n", result.error);
 } catch (const std::exception& error) {
