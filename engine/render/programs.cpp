@@ -18,7 +18,8 @@ namespace {
 // How many paths a thread follows, one after the other. On a CPU lanes run in lockstep and there are few of
 // them: the next path fills a lane whose path has ended. A GPU wants threads. Some drivers end a thread's
 // loops after 65,535 rounds. A vertex of a path takes some dozens, and roulette leaves few paths that go on
-// for long; half of the rounds are kept in reserve, and a traversal that is truncated all the same is reported.
+// for long; half of the rounds are kept in reserve, and a traversal that is truncated all the same is
+// reported.
 std::uint32_t pathsPerThread(const gpu::Device& device, const RenderSettings& settings) {
     constexpr std::uint32_t kMostPaths = 16;
     constexpr std::uint32_t kRounds = 32'768;
@@ -35,7 +36,7 @@ std::uint32_t pathsPerThread(const gpu::Device& device, const RenderSettings& se
 
 gpu::SpecConstants programConstants(const GpuScene& scene, const RenderSettings& settings) {
     gpu::SpecConstants constants = scene.constants();
-    constants.merge(programConstants(settings));
+    constants.merge(settingConstants(settings));
     constants[kConstantBlueBits] = settings.blue_bits;
     constants[kConstantOrders] = settings.orders ? settings.bounces + 1U : 0U;
     if (settings.all_effects) {

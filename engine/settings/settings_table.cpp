@@ -243,7 +243,7 @@ std::string_view titleOf(SettingGroup group) {
     return {};
 }
 
-std::map<std::uint32_t, std::uint32_t> programConstants(const RenderSettings& settings) {
+std::map<std::uint32_t, std::uint32_t> settingConstants(const RenderSettings& settings) {
     std::map<std::uint32_t, std::uint32_t> constants;
     for (const Setting& setting : settingsTable())
         if (setting.constant) constants[*setting.constant] = setting.number(settings);

@@ -53,7 +53,7 @@ std::span<const Setting> settingsTable();
 std::span<const Setting> viewerSettingsTable();
 
 /// Specialisation constants by their ids (shared/constants.h), of the rows that have one.
-std::map<std::uint32_t, std::uint32_t> programConstants(const RenderSettings& settings);
+std::map<std::uint32_t, std::uint32_t> settingConstants(const RenderSettings& settings);
 
 /// As a row takes it: "none" for nothing, "yes" and "no" for a flag.
 std::string textOf(const SettingValue& value);

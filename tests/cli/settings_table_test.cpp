@@ -214,7 +214,7 @@ TEST(SettingsTable, NamesOfKeysAndAttributes) {
 }
 
 TEST(SettingsTable, ProgramsGetTheirConstants) {
-    EXPECT_EQ(programConstants({}), (std::map<std::uint32_t, std::uint32_t>{{kConstantDirect, kDirectMis},
+    EXPECT_EQ(settingConstants({}), (std::map<std::uint32_t, std::uint32_t>{{kConstantDirect, kDirectMis},
                                                                             {kConstantMisBalance, 0},
                                                                             {kConstantSampler, kSamplerSobol},
                                                                             {kConstantAdaptive, 0},
@@ -227,7 +227,7 @@ TEST(SettingsTable, ProgramsGetTheirConstants) {
     settings.adaptive = true;
     settings.clamp = 0.5F;
     settings.regularise = true;
-    EXPECT_EQ(programConstants(settings),
+    EXPECT_EQ(settingConstants(settings),
               (std::map<std::uint32_t, std::uint32_t>{{kConstantDirect, kDirectArea},
                                                       {kConstantMisBalance, 1},
                                                       {kConstantSampler, kSamplerRandom},
