@@ -17,7 +17,7 @@ std::vector<double> environmentShares(const Environment& environment);
 std::vector<double> sharesAboveMean(const Environment& environment);
 
 /// What drawing directions by these shares takes, as an image of unsigned words;
-/// shaders/bound/environment.glsl reads it.
+/// shaders/light/sky.glsl reads it.
 struct EnvironmentTable {
     uvec2 size{1, 1};  ///< texels
     uint words = 1;    ///< of a texel: 1 or 4

@@ -13,13 +13,10 @@
 #include "licht/light/light_tree.h"
 #include "licht/scene/emitter_shapes.h"
 #include "licht/shared/effects.h"
+#include "licht/shared/light_views.h"
 
 namespace licht {
 namespace {
-
-uint kindOf(const LightRecord& light) {
-    return light.kind & kLightKindMask;
-}
 
 vec3 mean(const Texture& texture) {
     glm::dvec3 sum(0.0);
@@ -57,7 +54,8 @@ std::vector<double> emittedStrength(const Scene& scene) {
 }
 
 void addShape(LightTable& table, std::vector<double>& weights, LightRecord light, double strength_of_area) {
-    const double area = static_cast<double>(glm::length(glm::cross(light.direction, light.intensity)));
+    const ShapeLight shape = unpackShape(light);
+    const double area = static_cast<double>(glm::length(glm::cross(shape.edge_u, shape.edge_v)));
     table.lights.push_back(light);
     weights.push_back(std::isfinite(area) ? area * strength_of_area : 0.0);
 }
@@ -65,11 +63,10 @@ void addShape(LightTable& table, std::vector<double>& weights, LightRecord light
 // A hit on any face finds the same light; nothing picks it a second time. Of what double-sided ones send
 // inwards nothing gets out.
 void addSphere(LightTable& table, std::vector<double>& weights, LightRecord light, const Ball& ball,
-               std::size_t faces) {
+               const vec3& emission, std::size_t faces) {
     light.kind = kLightSphere;
-    light.position = ball.centre;
-    light.range = ball.radius;
-    const double weight = ball.area * strength(light.emission);
+    light = packSphere(light, {ball.centre, ball.radius, emission});
+    const double weight = ball.area * strength(emission);
     for (std::size_t k = 0; k < faces; ++k) {
         table.lights.push_back(light);
         weights.push_back(k == 0 && std::isfinite(weight) ? weight : 0.0);
@@ -85,10 +82,9 @@ void addShapes(const Scene& scene, bool spheres, LightTable& table, std::vector<
         if (strengths[mesh.material] <= 0.0) continue;
         table.first_light[i] = static_cast<uint>(table.lights.size());
         LightRecord light{};
-        light.emission = material.emission;
         light.instance = i;
         if (const std::optional<Ball> ball = spheres ? roundEmitter(scene, instance) : std::nullopt) {
-            addSphere(table, weights, light, *ball, mesh.triangles.size());
+            addSphere(table, weights, light, *ball, material.emission, mesh.triangles.size());
             continue;
         }
         const uint flags =
@@ -100,9 +96,7 @@ void addShapes(const Scene& scene, bool spheres, LightTable& table, std::vector<
                 if (const std::optional<Rectangle> r =
                         rectangleOf(p, worldCorners(mesh, instance.world_from_object, k + 1))) {
                     light.kind = kLightRectangle | flags;
-                    light.position = r->corner;
-                    light.direction = r->first_edge;
-                    light.intensity = r->second_edge;
+                    light = packShape(light, {r->corner, r->first_edge, r->second_edge, material.emission});
                     addShape(table, weights, light, strengths[mesh.material]);
                     // A hit on the second half finds the same light; nothing picks it a second time.
                     addShape(table, weights, light, 0.0);
@@ -111,9 +105,7 @@ void addShapes(const Scene& scene, bool spheres, LightTable& table, std::vector<
                 }
             }
             light.kind = kLightTriangle | flags;
-            light.position = p[0];
-            light.direction = p[1] - p[0];
-            light.intensity = p[2] - p[0];
+            light = packShape(light, {p[0], p[1] - p[0], p[2] - p[0], material.emission});
             addShape(table, weights, light, 0.5 * strengths[mesh.material]);
         }
     }
@@ -131,48 +123,60 @@ void copyToOtherParts(LightTable& table) {
 }
 
 // `weight`: area times strength of what emits.
-LightBound boundOf(const LightRecord& light, double weight) {
+LightBound boundOfSphere(const SphereLight& light, double weight) {
     LightBound bound;
-    const glm::dvec3 at(light.position);
-    if (kindOf(light) == kLightSphere) {
-        bound.low = at - static_cast<double>(light.range);
-        bound.high = at + static_cast<double>(light.range);
-        bound.axis = glm::dvec3(0, 0, 1);
-        bound.normals_angle = std::numbers::pi;
-        bound.emission_angle = 0.5 * std::numbers::pi;
-        bound.intensity = weight;
-        return bound;
+    bound.low = glm::dvec3(light.centre) - static_cast<double>(light.radius);
+    bound.high = glm::dvec3(light.centre) + static_cast<double>(light.radius);
+    bound.axis = glm::dvec3(0, 0, 1);
+    bound.normals_angle = std::numbers::pi;
+    bound.emission_angle = 0.5 * std::numbers::pi;
+    bound.intensity = weight;
+    return bound;
+}
+
+LightBound boundOfShape(const ShapeLight& light, bool rectangle, bool two_sided, double weight) {
+    LightBound bound;
+    const glm::dvec3 at(light.corner);
+    const glm::dvec3 e1(light.edge_u);
+    const glm::dvec3 e2(light.edge_v);
+    bound.low = glm::min(at, glm::min(at + e1, at + e2));
+    bound.high = glm::max(at, glm::max(at + e1, at + e2));
+    if (rectangle) {
+        bound.low = glm::min(bound.low, at + e1 + e2);
+        bound.high = glm::max(bound.high, at + e1 + e2);
     }
-    if (isShape(light)) {
-        const glm::dvec3 e1(light.direction);
-        const glm::dvec3 e2(light.intensity);
-        const bool rectangle = kindOf(light) == kLightRectangle;
-        bound.low = glm::min(at, glm::min(at + e1, at + e2));
-        bound.high = glm::max(at, glm::max(at + e1, at + e2));
-        if (rectangle) {
-            bound.low = glm::min(bound.low, at + e1 + e2);
-            bound.high = glm::max(bound.high, at + e1 + e2);
-        }
-        bound.axis = glm::normalize(glm::cross(e1, e2));
-        bound.emission_angle = 0.5 * std::numbers::pi;
-        bound.two_sided = (light.kind & kLightDoubleSided) != 0;
-        bound.intensity = bound.two_sided ? 0.5 * weight : weight;
-        return bound;
-    }
-    bound.low = bound.high = at;
+    bound.axis = glm::normalize(glm::cross(e1, e2));
+    bound.emission_angle = 0.5 * std::numbers::pi;
+    bound.two_sided = two_sided;
+    bound.intensity = two_sided ? 0.5 * weight : weight;
+    return bound;
+}
+
+LightBound boundOfSpot(const SpotLight& light, bool spot) {
+    LightBound bound;
+    bound.low = bound.high = glm::dvec3(light.position);
     bound.intensity = strength(light.intensity);
-    bound.axis = glm::dvec3(light.direction);
-    if (kindOf(light) == kLightPoint) {
+    bound.axis = glm::dvec3(light.axis);
+    if (!spot) {
         bound.intensity *= 4.0;  // a sphere has four times the area that it shows
         bound.axis = glm::dvec3(0, 0, 1);
         bound.normals_angle = std::numbers::pi;
         bound.emission_angle = 0.5 * std::numbers::pi;
     } else {
         // The cone ends where scale * cos + offset = 0.
-        bound.emission_angle = std::acos(std::clamp(
-            -static_cast<double>(light.cone_offset) / static_cast<double>(light.cone_scale), -1.0, 1.0));
+        bound.emission_angle = std::acos(
+            std::clamp(-static_cast<double>(light.offset) / static_cast<double>(light.scale), -1.0, 1.0));
     }
     return bound;
+}
+
+LightBound boundOf(const LightRecord& light, double weight) {
+    const uint kind = kindOf(light);
+    if (kind == kLightSphere) return boundOfSphere(unpackSphere(light), weight);
+    if (isShape(light))
+        return boundOfShape(unpackShape(light), kind == kLightRectangle,
+                            (light.kind & kLightDoubleSided) != 0, weight);
+    return boundOfSpot(unpackSpot(light), kind == kLightSpot);
 }
 
 // Gives the lights that are somewhere their trails; true where there are enough of them for a tree.
@@ -195,27 +199,23 @@ bool growTree(LightTable& table, std::span<const double> weights) {
     return true;
 }
 
-LightRecord punctualRecord(const PunctualLight& light) {
+LightRecord sunRecord(const PunctualLight& light) {
     LightRecord record{};
-    record.position = light.position;
-    record.direction = light.direction;
-    record.intensity = light.intensity;
-    record.range = light.range;
-    record.kind = light.kind == PunctualLight::Kind::point  ? kLightPoint
-                  : light.kind == PunctualLight::Kind::spot ? kLightSpot
-                                                            : kLightDirectional;
-    if (fillsAngle(light)) {
-        const float sine = std::sin(0.5F * light.angular_diameter);
-        record.cone_scale = sine * sine;
-    }
-    if (light.kind == PunctualLight::Kind::spot) {
-        // KHR_lights_punctual's reference falloff; the smallest width protects the division where both cones
-        // are equal.
-        const float outer = std::cos(light.outer_cone);
-        record.cone_scale = 1.0F / std::max(0.001F, std::cos(light.inner_cone) - outer);
-        record.cone_offset = -outer * record.cone_scale;
-    }
-    return record;
+    record.kind = kLightDirectional;
+    const float sine = fillsAngle(light) ? std::sin(0.5F * light.angular_diameter) : 0.0F;
+    return packSun(record, {light.direction, light.intensity, sine * sine});
+}
+
+LightRecord spotRecord(const PunctualLight& light) {
+    LightRecord record{};
+    const bool spot = light.kind == PunctualLight::Kind::spot;
+    record.kind = spot ? kLightSpot : kLightPoint;
+    // KHR_lights_punctual's reference falloff; the smallest width protects the division where both cones
+    // are equal.
+    const float outer = std::cos(light.outer_cone);
+    const float scale = spot ? 1.0F / std::max(0.001F, std::cos(light.inner_cone) - outer) : 0.0F;
+    return packSpot(record,
+                    {light.position, light.range, light.intensity, light.direction, scale, -outer * scale});
 }
 
 // Flux; a directional light's is what passes through the scene's bounding sphere.
@@ -259,7 +259,7 @@ LightTable buildLightTable(const Scene& scene, const Effects& effects, const Pic
             if (!punctual || (light.kind == PunctualLight::Kind::directional) != directional ||
                 fillsAngle(light) != disc)
                 continue;
-            table.lights.push_back(punctualRecord(light));
+            table.lights.push_back(directional ? sunRecord(light) : spotRecord(light));
             weights.push_back(disc && !pickable.surfaces_and_suns ? 0.0 : flux(light, radius));
         }
     };

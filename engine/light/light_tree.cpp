@@ -236,32 +236,32 @@ private:
     LightTree tree_;
 };
 
-// shaders/bound/light_tree.glsl in double precision.
+// shaders/light/tree.glsl in double precision.
 double meanAboveZero(double c, double s) {
     const double above = std::max(c + s, 0.0);
     return c >= s || above <= 0.0 ? std::max(c, 0.0) : above * above / (4.0 * s);
 }
 
-double importance(const LightChildRecord& c, const LightReceiver& r) {
-    const glm::dvec3 d = glm::dvec3(c.centre) - r.position;
+double importance(const LightChildRecord& c, const ShadingPoint& at) {
+    const glm::dvec3 d = glm::dvec3(c.centre) - at.position;
     const double distance = glm::length(d);
     const glm::dvec3 half(c.half_size);
     const auto slack = static_cast<double>(kLightSlack);
-    if (glm::dot(d, r.normal) + glm::dot(half, glm::abs(r.normal)) + slack * distance <= 0.0) return 0.0;
+    if (glm::dot(d, at.normal) + glm::dot(half, glm::abs(at.normal)) + slack * distance <= 0.0) return 0.0;
     const glm::dvec3 w = distance > 0.0 ? d / distance : glm::dvec3(0.0);
     const double radius = glm::length(half);
     const double sphere = radius < distance ? std::asin(radius / distance) : 0.5 * kPi;
-    const double cos_receiver = glm::dot(w, r.normal);
+    const double cos_receiver = glm::dot(w, at.normal);
     double received = std::max(meanAboveZero(cos_receiver, std::sin(sphere)),
                                static_cast<double>(kLightLeastReceived) * std::sin(sphere) + slack);
-    if (r.coat > 0.0) {
+    if (at.coat > 0.0) {
         const double sine = std::sin(sphere);
         const double a2 =
-            std::min(r.alpha * r.alpha + static_cast<double>(kLightWidening) * sine * sine, 1.0);
-        const double cos_sum = std::max(glm::dot(r.wo, r.normal) + cos_receiver, 0.0);
-        const double sum2 = 2.0 + 2.0 * glm::dot(r.wo, w);
+            std::min(at.alpha * at.alpha + static_cast<double>(kLightWidening) * sine * sine, 1.0);
+        const double cos_sum = std::max(glm::dot(at.wo, at.normal) + cos_receiver, 0.0);
+        const double sum2 = 2.0 + 2.0 * glm::dot(at.wo, w);
         const double below = a2 * cos_sum * cos_sum + std::max(sum2 - cos_sum * cos_sum, 0.0);
-        if (below > 0.0) received += r.coat * a2 * (sum2 / below) * (sum2 / below);
+        if (below > 0.0) received += at.coat * a2 * (sum2 / below) * (sum2 / below);
     }
     double cos_axis = -glm::dot(glm::dvec3(c.axis), w);
     if ((c.next & kLightTwoSided) != 0) cos_axis = std::abs(cos_axis);
@@ -282,15 +282,15 @@ LightTree buildLightTree(std::span<const LightBound> lights) {
     return Builder(lights).run();
 }
 
-double lightTreePmf(const LightTree& tree, const LightReceiver& receiver, uint trail) {
+double lightTreePmf(const LightTree& tree, const ShadingPoint& point, uint trail) {
     double pmf = 1.0;
     for (uint node = 0;; trail >>= kLightTrailBits) {
         const LightChildRecord* children = &tree.children[std::size_t{kLightChildren} * node];
         double sum = 0.0;
-        for (uint k = 0; k < kLightChildren; ++k) sum += importance(children[k], receiver);
+        for (uint k = 0; k < kLightChildren; ++k) sum += importance(children[k], point);
         if (!(sum > 0.0)) return 0.0;
         const LightChildRecord& taken = children[trail & (kLightChildren - 1)];
-        pmf *= importance(taken, receiver) / sum;
+        pmf *= importance(taken, point) / sum;
         if ((taken.next & kLightLeaf) != 0) return pmf;
         node = taken.next & kLightIndexMask;
     }

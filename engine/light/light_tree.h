@@ -29,8 +29,9 @@ struct LightTree {
 /// At least two lights, at most 2^24 (else the trails do not fit).
 LightTree buildLightTree(std::span<const LightBound> lights);
 
-/// How a surface receives light (shaders/bound/light_tree.glsl); Lambertian unless said otherwise.
-struct LightReceiver {
+/// What the choice among lights knows of the place that is to be lit (shaders/light/shading_point.glsl);
+/// Lambertian unless said otherwise.
+struct ShadingPoint {
     glm::dvec3 position;  ///< world
     glm::dvec3 normal;    ///< world, unit
     glm::dvec3 wo{0.0};   ///< world, unit, where it sends the light to; heeded where there is a coat
@@ -40,6 +41,6 @@ struct LightReceiver {
 
 /// Probability that a walk from a surface ends at the light of that trail; the shader's formula in double
 /// precision.
-double lightTreePmf(const LightTree& tree, const LightReceiver& receiver, uint trail);
+double lightTreePmf(const LightTree& tree, const ShadingPoint& point, uint trail);
 
 }  // namespace licht

@@ -3,7 +3,7 @@
 #ifndef LICHT_BOUND_PATH_GLSL
 #define LICHT_BOUND_PATH_GLSL
 
-#include "bound/light.glsl"
+#include "light/light.glsl"
 #include "shared/choices.h"
 #include "shared/constants.h"
 #include "shared/dimensions.h"
@@ -51,7 +51,7 @@ struct Path {
     vec3 wo;                // unit, world, from there to the vertex before
     vec3 radiance;          // found so far
     vec3 throughput;
-    LightAsker from;        // the vertex before, as it asks for lights
+    PackedShadingPoint from;  // the vertex before, as lights are chosen for it
     float scatter_pdf;      // of the direction that led to `hit`, solid angle
     uint bounce;            // scattered so often
     uint medium;            // that it goes through; kNoIndex: vacuum
@@ -60,14 +60,14 @@ struct Path {
 
 // What the camera's ray, the first one, met. wo: unit, world, away from the scene.
 Path beginPath(SampleAddress address, Hit hit, vec3 wo) {
-    return Path(address, 1u, hit, wo, vec3(0.0), vec3(1.0), kNobody, 0.0, 0u, kNoIndex, true);
+    return Path(address, 1u, hit, wo, vec3(0.0), vec3(1.0), kNoShadingPoint, 0.0, 0u, kNoIndex, true);
 }
 
 // Light that would arrive straight from a sampled light and scatter towards wo, one order of T applied to Le, with the ray that asks whether it does.
 // One sample of the lights: several at what the camera sees, and several candidates of which one is kept (Talbot 2005), were both tried where there are 200 lamps: less
 // noise a sample by 1.3 to 1.6, for as much more time.
-ShadowRay directLight(Surface s, LightAsker asker, vec3 wo_local, uint dimension, Path p, inout PathCounts counts) {
-    LightSample light = sampleLight(s, asker, p.address, dimension);
+ShadowRay directLight(Surface s, PackedShadingPoint at, vec3 wo_local, uint dimension, Path p, inout PathCounts counts) {
+    LightSample light = sampleLight(vertexOn(s), at, p.address, dimension);
     countTries(light, counts);
     if (!light.valid) return kNoShadowRay;
     vec3 wi = normalize(light.direction);
@@ -76,7 +76,7 @@ ShadowRay directLight(Surface s, LightAsker asker, vec3 wo_local, uint dimension
     LobeValue scattered = evaluateBsdf(s.bsdf, wo_local, wi_local);
     if (largest(scattered.f) <= 0.0) return kNoShadowRay;
     float weight = weightOfLightSample(light, scattered.pdf);
-    RayQuery query = shadowQuery(offsetOrigin(s, wi), light.direction, light.t_max, light.t_enough);
+    RayQuery query = shadowQuery(offsetOrigin(vertexOn(s), wi), light.direction, light.t_max, light.t_enough);
     return ShadowRay(sceneRay(query, p.address, p.rays), light.target, scattered.f * light.radiance * (wi_local.z * weight / light.pdf), true);
 }
 
@@ -93,6 +93,12 @@ vec3 foundLight(uvec2 pixel, uint order, vec3 light) {
     }
     onLight(pixel, order, kept, light - kept);
     return kept;
+}
+
+// What a ray to a light brings, now that it is traced.
+vec3 arrivingLight(uvec2 pixel, uint order, ShadowRay shadow) {
+    vec3 share = arrivingShare(shadow);
+    return largest(share) > 0.0 ? foundLight(pixel, order, share * shadow.light) : vec3(0.0);
 }
 
 // Weight of light that the path meets. Seen directly it counts whole.
@@ -118,7 +124,7 @@ void endInSky(inout Path p) {
 }
 
 // Whether a picture is opaque there: a surface, an environment, a sun's disc.
-bool covers(Hit hit, vec3 wo) {
+bool isOpaqueInPicture(Hit hit, vec3 wo) {
     bool covered = hit.instance != kNoIndex || frame.has_sky != 0u;
     if (kSuns) {
         for (uint i = 0u; i < frame.suns; ++i) covered = covered || isInSun(lightAt(frame.first_sun + i), -wo);
@@ -142,8 +148,8 @@ void extendPath(inout Path p, inout PathCounts counts, out ShadowRay to_light, o
     // Sample a light.
     uint dimension = kDimensionBounce + kDimensionsPerBounce * p.bounce;
     vec3 wo_local = localFromWorld(s.frame, p.wo);
-    LightAsker asker = askerAt(s, p.wo);
-    if (kLightTriangles || kPunctualLights || kEnvironment) to_light = directLight(s, asker, wo_local, dimension, p, counts);
+    PackedShadingPoint at = shadingPointAt(s, p.wo);
+    if (kLightTriangles || kPunctualLights || kEnvironment) to_light = directLight(s, at, wo_local, dimension, p, counts);
     to_light.light *= p.throughput;
     p.rays += to_light.wanted ? 1u : 0u;
 
@@ -165,15 +171,16 @@ void extendPath(inout Path p, inout PathCounts counts, out ShadowRay to_light, o
 
     // Follow the ray.
     if (p.alive) {
-        onward = sceneRay(pathQuery(offsetOrigin(s, wi), wi), p.address, p.rays++);
+        onward = sceneRay(pathQuery(offsetOrigin(vertexOn(s), wi), wi), p.address, p.rays++);
         p.wo = -wi;
-        p.from = asker;
+        p.from = at;
         p.scatter_pdf = scattered.pdf;
         ++p.bounce;
     }
 }
 
-// The same, with both rays traced.
+// The same, with both rays traced: from vertex to vertex. A sample is a path that is begun, extended while it hits something, and ended in the sky where it
+// does not.
 void extendAndTrace(inout Path p, inout PathCounts counts) {
     ShadowRay to_light;
     SceneRay onward;
@@ -183,7 +190,7 @@ void extendAndTrace(inout Path p, inout PathCounts counts) {
         ++counts.shadow_rays;
         trace(to_light.ray);
         counts.truncated_traversals += to_light.ray.truncated ? 1u : 0u;
-        if (arrives(to_light)) p.radiance += foundLight(p.address.pixel, order, to_light.light);
+        p.radiance += arrivingLight(p.address.pixel, order, to_light);
     }
     if (p.alive) {
         ++counts.bounce_rays;

@@ -15,10 +15,13 @@ struct SceneRay {
     SampleAddress address;  // whose ray it is, and how many that sample traced before: by both the coverage of partly transparent surfaces is decided
     uint rays_before;
     Hit hit;                // what it met last
+    vec3 transmittance;     // of what it has passed
     bool truncated;         // see TraceResult
 };
 
-SceneRay sceneRay(RayQuery query, SampleAddress address, uint rays_before) { return SceneRay(query, address, rays_before, kNoHit, false); }
+SceneRay sceneRay(RayQuery query, SampleAddress address, uint rays_before) {
+    return SceneRay(query, address, rays_before, kNoHit, vec3(1.0), false);
+}
 
 // Behind a surface that was not there a ray goes on at that very distance: only what comes later in the order of hits, (t, instance, triangle), counts.
 bool acceptHit(RayQuery ray, uint instance, uint position, float t) {
@@ -33,21 +36,25 @@ Hit hitOf(TraceHit t) {
     return Hit(instance, uint(bvhTriangleTexel(texel + 2u).w), t.b1, t.b2);
 }
 
-// Is what was met not there for this ray? Then it goes on behind it. Coverage is asked once per surface and not inside the traversal, because drivers without
-// branches would filter textures in every step of it.
+// What a surface lets pass of light that goes straight on: by its coverage all or nothing, as one number decides.
+vec3 transmittanceOf(SceneRay ray, uint triangle) {
+    float u = coverageNumber(ray.address, ray.rays_before, ray.hit.instance, triangle);
+    return covers(ray.hit.instance, ray.hit.primitive, ray.hit.b1, ray.hit.b2, u) ? vec3(0.0) : vec3(1.0);
+}
+
+// Does the ray go on behind what it met? That is asked once per surface and not inside the traversal, because drivers without branches would filter textures
+// in every step of it.
 bool passesThrough(inout SceneRay ray, TraceHit found) {
     ray.hit = hitOf(found);
-    bool passes = false;
-    if (kAlpha && ray.hit.instance != kNoIndex && (instanceAt(ray.hit.instance).flags & kInstanceAlpha) != 0u) {
-        uint triangle = instanceAt(ray.hit.instance).first_triangle + ray.hit.primitive;
-        passes = !covers(ray.hit.instance, ray.hit.primitive, ray.hit.b1, ray.hit.b2, coverageNumber(ray.address, ray.rays_before, ray.hit.instance, triangle));
-        if (passes) {
-            ray.query.t_min = found.t;
-            ray.query.from_instance = found.instance;
-            ray.query.from_triangle = triangle + 1u;
-        }
-    }
-    return passes;
+    if (!kAlpha || ray.hit.instance == kNoIndex || (instanceAt(ray.hit.instance).flags & kInstanceAlpha) == 0u) return false;
+    uint triangle = instanceAt(ray.hit.instance).first_triangle + ray.hit.primitive;
+    vec3 transmittance = transmittanceOf(ray, triangle);
+    if (largest(transmittance) <= 0.0) return false;
+    ray.transmittance *= transmittance;
+    ray.query.t_min = found.t;
+    ray.query.from_instance = found.instance;
+    ray.query.from_triangle = triangle + 1u;
+    return true;
 }
 
 // Until something is met that is there for this ray.
@@ -64,7 +71,16 @@ vec3 offsetOrigin(vec3 position, vec3 normal, float error_bound, vec3 direction)
     return position + (dot(direction, normal) < 0.0 ? -error_bound : error_bound) * normal;
 }
 
-vec3 offsetOrigin(Surface s, vec3 direction) { return offsetOrigin(s.position, s.face_normal, s.error_bound, direction); }
+// Where rays leave from: a point of a surface or, with no bound, one in a medium.
+struct Vertex {
+    vec3 position;
+    vec3 face_normal;   // see Surface
+    float error_bound;
+};
+
+Vertex vertexOn(Surface s) { return Vertex(s.position, s.face_normal, s.error_bound); }
+
+vec3 offsetOrigin(Vertex v, vec3 direction) { return offsetOrigin(v.position, v.face_normal, v.error_bound, direction); }
 
 // A ray to a light, and what it brings when it gets there.
 struct ShadowRay {
@@ -74,7 +90,7 @@ struct ShadowRay {
     bool wanted;  // false: there is no such ray
 };
 
-const SceneRay kNoSceneRay = SceneRay(kNoRayQuery, SampleAddress(uvec2(0u), 0u, 0u), 0u, kNoHit, false);
+const SceneRay kNoSceneRay = SceneRay(kNoRayQuery, SampleAddress(uvec2(0u), 0u, 0u), 0u, kNoHit, vec3(1.0), false);
 const ShadowRay kNoShadowRay = ShadowRay(kNoSceneRay, kNoIndex, vec3(0.0), false);
 
 // The nearest surface is wanted.
@@ -86,7 +102,10 @@ RayQuery shadowQuery(vec3 origin, vec3 direction, float t_max, float t_enough) {
     return rayQuery(origin, direction, t_max, kAlpha ? 0.0 : kLightSpheres ? t_enough : infinity());
 }
 
-// Did it get there, now that it is traced?
-bool arrives(ShadowRay shadow) { return kLightSpheres ? shadow.ray.hit.instance == shadow.target : shadow.ray.hit.instance == kNoIndex; }
+// How much of the light gets there, now that the ray is traced.
+vec3 arrivingShare(ShadowRay shadow) {
+    bool arrives = kLightSpheres ? shadow.ray.hit.instance == shadow.target : shadow.ray.hit.instance == kNoIndex;
+    return !arrives ? vec3(0.0) : kAlpha ? shadow.ray.transmittance : vec3(1.0);
+}
 
 #endif

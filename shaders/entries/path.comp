@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// One sample per pixel: from the G-buffer's hit along a whole path.
+// One sample per pixel, by one kernel: from the G-buffer's hit along a whole path.
 #include "bound/adaptive.glsl"
 #include "bound/gbuffer.glsl"
 #include "bound/orders.glsl"
@@ -22,19 +22,18 @@ void main() {
     }
     barrier();
     PathCounts counts = kNothingCounted;
-    // Kernels with queues between them (wavefront.cpp) draw faster where lanes run in lockstep: here some are idle at a vertex and half within a walk, there
-    // lanes take the next path and the next ray of a list. They take longer to compile, and memory for each path; engine/run/queue_choice.cpp says when
-    // they pay, tests/bench/MEASURED.md by how much.
+    // The wavefront's kernels waste fewer lanes, and take longer to compile; engine/run/queue_choice.cpp says when they pay.
     // A thread follows a column of paths, the next one as soon as one ends: drivers that run lanes in lockstep would otherwise idle wherever the
     // paths of a group are of different lengths.
     uvec2 pixel = uvec2(gl_GlobalInvocationID.x, push.first_row + gl_WorkGroupID.y * gl_WorkGroupSize.y * kPathsPerThread + gl_LocalInvocationID.y);
     uint rows_end = pixel.x < frame.view.size.x ? min(push.first_row + push.row_count, frame.view.size.y) : 0u;
     uint left = kPathsPerThread;
     bool covered = false;
-    Path p;
     bool begun = false;
+    Path p;
     while (true) {
-        if (begun && p.hit.instance == kNoIndex && p.alive) endInSky(p);
+        if (begun && p.alive && p.hit.instance == kNoIndex) endInSky(p);
+        // On to the next path, where this one has ended.
         if (!begun || !p.alive) {
             if (begun) {
                 storeSample(pixel, p.radiance, covered);
@@ -49,7 +48,7 @@ void main() {
             }
             Hit hit = gbufferHit(ivec2(pixel));
             p = beginPath(sampleAddress(pixel, push.sample_index), hit, gbufferWo(hit, ivec2(pixel), push.sample_index));
-            covered = covers(hit, p.wo);
+            covered = isOpaqueInPicture(hit, p.wo);
         }
         if (p.hit.instance != kNoIndex) extendAndTrace(p, counts);
     }

@@ -23,7 +23,8 @@ RayQuery queryOf(RayTask task) { return task.shadow.ray.query; }
 bool passesThrough(inout RayTask task, TraceHit found) { return passesThrough(task.shadow.ray, found); }
 
 void endTask(bool ends, RayTask task) {
-    if (ends && arrives(task.shadow)) addRadiance(task.path, foundLight(task.shadow.ray.address.pixel, push.bounce + 1u, task.shadow.light));
+    if (!ends || largest(arrivingShare(task.shadow)) <= 0.0) return;
+    addRadiance(task.path, arrivingLight(task.shadow.ray.address.pixel, push.bounce + 1u, task.shadow));
 }
 
 #include "bound/ray_list.glsl"

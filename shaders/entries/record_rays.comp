@@ -33,7 +33,7 @@ RayRecord glossyRay(SampleAddress address, Hit hit, vec3 wo) {
     vec3 h = sampleGgxVisibleNormal(wo_local, kRecordedRoughness * kRecordedRoughness, sample4(address, kDimensionBounce + kDimensionScatter).yz);
     vec3 wi = worldFromLocal(s.frame, 2.0 * dot(wo_local, h) * h - wo_local);
     if (dot(wi, s.face_normal) <= 0.0 || dot(wi, s.frame.normal) <= 0.0) return kNoRay;
-    return recordOf(pathQuery(offsetOrigin(s, wi), wi));
+    return recordOf(pathQuery(offsetOrigin(vertexOn(s), wi), wi));
 }
 
 void main() {

@@ -16,16 +16,17 @@ LICHT_CONSTANT uint kLightKindMask = 0xffu;
 LICHT_CONSTANT uint kLightDoubleSided = 0x100u;  // flags beside the kind
 LICHT_CONSTANT uint kLightUneven = 0x200u;       // what it emits varies over it or by direction
 
+// light_views.h says what the words mean for each kind.
 struct LightRecord {
-    vec3 position;     // punctual: world; triangle, rectangle: the first corner; sphere: the centre
-    uint kind;         // and flags
-    vec3 direction;    // the way the light travels, unit; triangle, rectangle: the edge from the first corner to the second, metres
-    float range;       // metres; 0: unlimited; sphere: its radius
-    vec3 intensity;    // cd, or lux when directional; triangle, rectangle: the edge from the first corner to the last
-    float cone_scale;  // spot: smooth factor = clamp(cos * scale + offset, 0, 1)^2; directional: sine squared of the half angle it fills
-    vec3 emission;     // triangle, rectangle, sphere: cd/m^2, before a texture
-    float cone_offset;
-    uint instance;  // triangle: its hit record; sphere: the instance, and primitive 0
+    vec3 a;
+    uint kind;  // and flags
+    vec3 b;
+    float u;
+    vec3 c;
+    float v;
+    vec3 d;
+    float w;
+    uint instance;  // of what is made of triangles: its hit record; of a sphere primitive 0
     uint primitive;
     float pmf;   // probability that the table picks this light, or the tree that it is in
     uint trail;  // in the tree: which child at which level, kLightTrailBits each
@@ -55,7 +56,8 @@ LICHT_CONSTANT uint kLightTwoSided = 0x40000000u;
 LICHT_CONSTANT uint kLightIndexMask = 0x3fffffffu;
 // Added to cosines, so that rounding and the packing of normals (3e-5) never hide a light that is barely seen.
 LICHT_CONSTANT float kLightSlack = 1e-4F;
-// Of a cluster's importance; all four are the flat optimum for a hall of 200 lamps.
+// Of a cluster's importance. No theory gives these four: they were tuned on one hall of 200 lamps, where the variance hardly changes around them. Whatever
+// they are, picks stay unbiased; other scenes may want others.
 LICHT_CONSTANT float kLightLeastReceived = 0.2F;  // of the sine of its sphere's angular radius, where the mean is less
 LICHT_CONSTANT float kLightLeastEmitted = 0.1F;   // of the emission, where the mean is less
 LICHT_CONSTANT float kLightSoftening = 0.4F;      // of its radius's square, in that of the distance

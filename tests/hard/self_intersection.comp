@@ -29,7 +29,7 @@ void main() {
     Question q = questions[i];
     Hit hit = Hit(q.instance, q.primitive, q.b1, q.b2);
     Surface s = surfaceAt(hit, q.direction);
-    vec3 origin = offsetOrigin(s, q.direction);
+    vec3 origin = offsetOrigin(vertexOn(s), q.direction);
 
     uvec3 v = triangleVertices(hit.instance, hit.primitive);
     vec3 p0 = vertexAt(v.x).position, p1 = vertexAt(v.y).position, p2 = vertexAt(v.z).position;

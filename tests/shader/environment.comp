@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // Samples of the environment with the densities that sampling and looking up report, and densities of given directions.
-#include "bound/environment.glsl"
+#include "light/sky.glsl"
 #include "pure/sequence.glsl"
 
 layout(local_size_x = 64) in;

@@ -12,7 +12,7 @@
 #include "licht/scene/effects.h"
 #include "licht/settings/settings.h"
 #include "licht/shared/effects.h"
-#include "licht/shared/light.h"
+#include "licht/shared/light_views.h"
 
 namespace licht {
 namespace {
@@ -77,15 +77,48 @@ double sumOfPmf(const LightTable& table) {
     return sum;
 }
 
-uint kindOf(const LightRecord& light) {
-    return light.kind & kLightKindMask;
+vec3 areaOf(const LightRecord& light) {
+    const ShapeLight shape = unpackShape(light);
+    return glm::cross(shape.edge_u, shape.edge_v);
+}
+
+// What is packed comes back, beside the words that every kind has.
+TEST(LightViews, ComeBackFromTheirRecord) {
+    LightRecord record{};
+    record.kind = kLightRectangle | kLightUneven;
+    record.pmf = 0.25F;
+    record.trail = 7;
+    const ShapeLight shape = unpackShape(packShape(record, {vec3(1), vec3(2), vec3(3), vec3(4)}));
+    EXPECT_EQ(shape.corner, vec3(1));
+    EXPECT_EQ(shape.edge_u, vec3(2));
+    EXPECT_EQ(shape.edge_v, vec3(3));
+    EXPECT_EQ(shape.emission, vec3(4));
+    const SphereLight sphere = unpackSphere(packSphere(record, {vec3(1), 2.0F, vec3(3)}));
+    EXPECT_EQ(sphere.centre, vec3(1));
+    EXPECT_EQ(sphere.radius, 2.0F);
+    EXPECT_EQ(sphere.emission, vec3(3));
+    const SunLight sun = unpackSun(packSun(record, {vec3(1), vec3(2), 3.0F}));
+    EXPECT_EQ(sun.direction, vec3(1));
+    EXPECT_EQ(sun.illuminance, vec3(2));
+    EXPECT_EQ(sun.sine2, 3.0F);
+    const LightRecord packed = packSpot(record, {vec3(1), 2.0F, vec3(3), vec3(4), 5.0F, 6.0F});
+    const SpotLight spot = unpackSpot(packed);
+    EXPECT_EQ(spot.position, vec3(1));
+    EXPECT_EQ(spot.range, 2.0F);
+    EXPECT_EQ(spot.intensity, vec3(3));
+    EXPECT_EQ(spot.axis, vec3(4));
+    EXPECT_EQ(spot.scale, 5.0F);
+    EXPECT_EQ(spot.offset, 6.0F);
+    EXPECT_EQ(packed.kind, record.kind);
+    EXPECT_EQ(packed.pmf, record.pmf);
+    EXPECT_EQ(packed.trail, record.trail);
 }
 
 TEST(LightTable, TwoHalvesOfARectangleAreOneLight) {
     const LightTable table = tableOf(sceneOfQuads(1), LightChoice::tree);
     ASSERT_EQ(table.lights.size(), 2U);
     EXPECT_EQ(kindOf(table.lights[0]), kLightRectangle);
-    EXPECT_EQ(glm::length(glm::cross(table.lights[0].direction, table.lights[0].intensity)), 2.0F);
+    EXPECT_EQ(glm::length(areaOf(table.lights[0])), 2.0F);
     EXPECT_EQ(std::memcmp(&table.lights[0], &table.lights[1], sizeof(LightRecord)), 0);
     EXPECT_EQ(table.alias.size(), 2U);
     EXPECT_EQ(table.alias[1].pmf, 0.0F) << "the second half is never picked";
@@ -110,7 +143,7 @@ TEST(LightTable, MirroredRectanglesShineToTheSameSide) {
     scene.instances[1].world_from_object = glm::scale(mat4(1.0F), vec3(-1, 1, 1));
     const LightTable table = tableOf(scene, LightChoice::power);
     ASSERT_EQ(kindOf(table.lights[0]), kLightRectangle);
-    EXPECT_LT(glm::cross(table.lights[0].direction, table.lights[0].intensity).y, 0.0F);
+    EXPECT_LT(areaOf(table.lights[0]).y, 0.0F);
 }
 
 TEST(LightTable, ProbabilitiesSumToOne) {
@@ -135,10 +168,10 @@ TEST(LightTable, ProbabilitiesSumToOne) {
 TEST(LightTable, SunsStandTogetherAndArePickedOnlyWhereLightsAreSampled) {
     PunctualLight sharp;
     sharp.kind = PunctualLight::Kind::directional;
-    sharp.range = 1.0F;  // says which is which
+    sharp.intensity = vec3(1.0F);  // says which is which
     PunctualLight sun = sharp;
     sun.angular_diameter = 0.01F;
-    sun.range = 2.0F;
+    sun.intensity = vec3(2.0F);
     PunctualLight spot;
     spot.kind = PunctualLight::Kind::spot;
     spot.angular_diameter = 0.01F;  // means nothing here
@@ -157,9 +190,10 @@ TEST(LightTable, SunsStandTogetherAndArePickedOnlyWhereLightsAreSampled) {
                 for (uint i = 0; i < table.lights.size(); ++i) {
                     const LightRecord& light = table.lights[i];
                     const bool is_sun = i >= table.first_sun && i < table.first_sun + table.suns;
-                    EXPECT_EQ(kindOf(light) == kLightDirectional && light.range == 2.0F, is_sun);
+                    EXPECT_EQ(kindOf(light) == kLightDirectional && unpackSun(light).illuminance.x == 2.0F,
+                              is_sun);
                     if (kindOf(light) != kLightDirectional) continue;
-                    EXPECT_EQ(light.cone_scale > 0.0F, is_sun);
+                    EXPECT_EQ(unpackSun(light).sine2 > 0.0F, is_sun);
                     EXPECT_EQ(light.pmf > 0.0F, sampled || !is_sun);
                 }
             }
@@ -226,8 +260,8 @@ TEST(LightTable, ARoundMeshIsOneLight) {
         for (const std::size_t first : {std::size_t{4}, 4 + kFaces}) {
             const LightRecord& lamp = table.lights[first];
             EXPECT_EQ(kindOf(lamp), kLightSphere);
-            EXPECT_FLOAT_EQ(lamp.position.y, 9.0F);
-            EXPECT_NEAR(lamp.range, 1.0F, 1e-5F);
+            EXPECT_FLOAT_EQ(unpackSphere(lamp).centre.y, 9.0F);
+            EXPECT_NEAR(unpackSphere(lamp).radius, 1.0F, 1e-5F);
             EXPECT_GT(lamp.pmf, 0.0F);
             for (std::size_t k = 1; k < kFaces; ++k)
                 EXPECT_EQ(std::memcmp(&table.lights[first + k], &lamp, sizeof(LightRecord)), 0);

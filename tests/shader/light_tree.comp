@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // Walks down a light tree: which light is picked with which probability, and what looking the same light up says.
-#include "bound/light_tree.glsl"
+#include "light/tree.glsl"
 #include "pure/random.glsl"
 
 layout(local_size_x = 64) in;
@@ -29,9 +29,9 @@ void main() {
     if (i >= count) return;
     Place place = places[i / per_place];
     vec4 u = random4(SampleAddress(uvec2(i & 1023u, i >> 10u), 0u, seed), 0u);
-    Receiver receiver = Receiver(place.position, place.normal, place.wo, place.alpha, place.coat);
-    TreePick pick = pickInTree(receiver, u.xy);
+    ShadingPoint point = ShadingPoint(place.position, place.normal, place.wo, place.alpha, place.coat);
+    TreePick pick = pickInTree(point, u.xy);
     bool picked = pick.light != kNoIndex;
-    float looked_up = picked ? pmfInTree(receiver, trails[pick.light]) : 0.0;
+    float looked_up = picked ? pmfInTree(point, trails[pick.light]) : 0.0;
     answers[i] = Answer(pick.light, picked ? pick.pmf : 0.0, looked_up, 0u);
 }

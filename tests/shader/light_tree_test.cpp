@@ -65,19 +65,19 @@ std::vector<LightBound> randomLights(std::uint32_t seed, std::size_t count) {
 
 // Every other one glossy. Not seen at grazing angles nor very smooth, so that fp32 keeps the digits of the
 // half vector's distance from the normal.
-LightReceiver randomReceiver(Dice& dice, const dvec3& half, bool glossy) {
-    LightReceiver receiver{dice.inBox(half), dice.direction()};
-    if (!glossy) return receiver;
-    do receiver.wo = dice.direction();
-    while (glm::dot(receiver.wo, receiver.normal) < 0.2);
-    receiver.alpha = 0.1 + 0.4 * dice.number();
-    receiver.coat = std::exp(4.0 * dice.number() - 2.0);
-    return receiver;
+ShadingPoint randomPoint(Dice& dice, const dvec3& half, bool glossy) {
+    ShadingPoint point{dice.inBox(half), dice.direction()};
+    if (!glossy) return point;
+    do point.wo = dice.direction();
+    while (glm::dot(point.wo, point.normal) < 0.2);
+    point.alpha = 0.1 + 0.4 * dice.number();
+    point.coat = std::exp(4.0 * dice.number() - 2.0);
+    return point;
 }
 
-double sumOfPmf(const LightTree& tree, const LightReceiver& receiver) {
+double sumOfPmf(const LightTree& tree, const ShadingPoint& point) {
     double sum = 0.0;
-    for (const uint trail : tree.trails) sum += lightTreePmf(tree, receiver, trail);
+    for (const uint trail : tree.trails) sum += lightTreePmf(tree, point, trail);
     return sum;
 }
 
@@ -129,10 +129,10 @@ TEST(LightTree, probabilitiesSumToOne) {
     double lost = 0.0;
     double unlit = 0.0;
     for (int i = 0; i < 300; ++i) {
-        const LightReceiver receiver = randomReceiver(dice, {4, 2, 10}, i % 2 == 1);
+        const ShadingPoint point = randomPoint(dice, {4, 2, 10}, i % 2 == 1);
         double sum = 0.0;
         for (const uint trail : tree.trails) {
-            const double pmf = lightTreePmf(tree, receiver, trail);
+            const double pmf = lightTreePmf(tree, point, trail);
             sum += pmf;
             unlit += pmf > 0.0 ? 0.0 : 1.0 / (300.0 * 300.0);
         }
@@ -153,20 +153,20 @@ TEST(LightTree, hidesNoLightThatReachesThePoint) {
     Dice dice(6);
     int reaching = 0;
     for (int i = 0; i < 400; ++i) {
-        const LightReceiver receiver = randomReceiver(dice, {10, 4, 25}, i % 2 == 1);
+        const ShadingPoint point = randomPoint(dice, {10, 4, 25}, i % 2 == 1);
         for (std::size_t k = 0; k < lights.size(); ++k) {
             const LightBound& light = lights[k];
             // Any point of the emitter's box may shine.
             const dvec3 from =
                 light.low + dvec3(dice.number(), dice.number(), dice.number()) * (light.high - light.low);
-            const dvec3 w = glm::normalize(from - receiver.position);
+            const dvec3 w = glm::normalize(from - point.position);
             double cos_emitter = -glm::dot(w, light.axis);
             if (light.two_sided) cos_emitter = std::abs(cos_emitter);
             const double angle =
                 std::max(std::acos(std::clamp(cos_emitter, -1.0, 1.0)) - light.normals_angle, 0.0);
-            if (glm::dot(w, receiver.normal) <= 0.0 || angle >= light.emission_angle) continue;
+            if (glm::dot(w, point.normal) <= 0.0 || angle >= light.emission_angle) continue;
             ++reaching;
-            ASSERT_GT(lightTreePmf(tree, receiver, tree.trails[k]), 0.0) << i << " " << k;
+            ASSERT_GT(lightTreePmf(tree, point, tree.trails[k]), 0.0) << i << " " << k;
         }
     }
     EXPECT_GT(reaching, 10'000);
@@ -201,7 +201,7 @@ TEST(LightTree, prefersWhatACoatMirrors) {
         pair[i].intensity = 1.0;
     }
     const LightTree tree = buildLightTree(pair);
-    LightReceiver floor{dvec3(0.0), dvec3(0, 1, 0), glm::normalize(dvec3(1, 1, 0)), 0.1, 1.0};
+    ShadingPoint floor{dvec3(0.0), dvec3(0, 1, 0), glm::normalize(dvec3(1, 1, 0)), 0.1, 1.0};
     // The half vector is the normal for the left lamp and wo for the right one; pi D of both.
     const double base = std::sqrt(0.5);
     const double lobe = [&](double cos_h) {
@@ -246,7 +246,7 @@ TEST_P(OnDevice, picksWithTheProbabilitiesThatItSays) {
     Dice dice(8);
     std::vector<Place> places;
     for (int i = 0; i < 8; ++i) {
-        const LightReceiver r = randomReceiver(dice, {8, 3, 20}, i % 2 == 1);
+        const ShadingPoint r = randomPoint(dice, {8, 3, 20}, i % 2 == 1);
         places.push_back({vec3(r.position), static_cast<float>(r.alpha), vec3(r.normal),
                           static_cast<float>(r.coat), vec3(r.wo)});
     }
@@ -265,11 +265,11 @@ TEST_P(OnDevice, picksWithTheProbabilitiesThatItSays) {
     for (std::size_t p = 0; p < places.size(); ++p) {
         std::vector<double> expected;
         const Place& place = places[p];
-        const LightReceiver receiver{dvec3(place.position), dvec3(place.normal), dvec3(place.wo),
-                                     static_cast<double>(place.alpha), static_cast<double>(place.coat)};
+        const ShadingPoint point{dvec3(place.position), dvec3(place.normal), dvec3(place.wo),
+                                 static_cast<double>(place.alpha), static_cast<double>(place.coat)};
         double lit = 0.0;
         for (const uint trail : tree.trails) {
-            expected.push_back(kPerPlace * lightTreePmf(tree, receiver, trail));
+            expected.push_back(kPerPlace * lightTreePmf(tree, point, trail));
             lit += expected.back();
         }
         expected.push_back(std::max(kPerPlace - lit, 0.0));

@@ -90,10 +90,9 @@ std::map<std::string, Record> hostRecords() {
         LICHT_RECORD(ClearcoatRecord, LICHT_MEMBER(ClearcoatRecord, factor),
                      LICHT_MEMBER(ClearcoatRecord, roughness), LICHT_MEMBER(ClearcoatRecord, normal_scale),
                      LICHT_MEMBER(ClearcoatRecord, reserved)),
-        LICHT_RECORD(LightRecord, LICHT_MEMBER(LightRecord, position), LICHT_MEMBER(LightRecord, kind),
-                     LICHT_MEMBER(LightRecord, direction), LICHT_MEMBER(LightRecord, range),
-                     LICHT_MEMBER(LightRecord, intensity), LICHT_MEMBER(LightRecord, cone_scale),
-                     LICHT_MEMBER(LightRecord, emission), LICHT_MEMBER(LightRecord, cone_offset),
+        LICHT_RECORD(LightRecord, LICHT_MEMBER(LightRecord, a), LICHT_MEMBER(LightRecord, kind),
+                     LICHT_MEMBER(LightRecord, b), LICHT_MEMBER(LightRecord, u), LICHT_MEMBER(LightRecord, c),
+                     LICHT_MEMBER(LightRecord, v), LICHT_MEMBER(LightRecord, d), LICHT_MEMBER(LightRecord, w),
                      LICHT_MEMBER(LightRecord, instance), LICHT_MEMBER(LightRecord, primitive),
                      LICHT_MEMBER(LightRecord, pmf), LICHT_MEMBER(LightRecord, trail)),
         LICHT_RECORD(LightChildRecord, LICHT_MEMBER(LightChildRecord, centre),
@@ -122,15 +121,16 @@ std::map<std::string, Record> hostRecords() {
         LICHT_RECORD(SamplePush, LICHT_MEMBER(SamplePush, sample_index),
                      LICHT_MEMBER(SamplePush, count_before), LICHT_MEMBER(SamplePush, first_row),
                      LICHT_MEMBER(SamplePush, row_count)),
-        LICHT_RECORD(CounterRecord, LICHT_MEMBER(CounterRecord, bounce_rays),
-                     LICHT_MEMBER(CounterRecord, shadow_rays), LICHT_MEMBER(CounterRecord, nonfinite_samples),
-                     LICHT_MEMBER(CounterRecord, truncated_traversals), LICHT_MEMBER(CounterRecord, environment_samples),
-                     LICHT_MEMBER(CounterRecord, environment_tries)),
+        LICHT_RECORD(
+            CounterRecord, LICHT_MEMBER(CounterRecord, bounce_rays), LICHT_MEMBER(CounterRecord, shadow_rays),
+            LICHT_MEMBER(CounterRecord, nonfinite_samples), LICHT_MEMBER(CounterRecord, truncated_traversals),
+            LICHT_MEMBER(CounterRecord, environment_samples), LICHT_MEMBER(CounterRecord, environment_tries)),
         LICHT_RECORD(AdaptiveTileRecord, LICHT_MEMBER(AdaptiveTileRecord, end),
                      LICHT_MEMBER(AdaptiveTileRecord, behind)),
         LICHT_RECORD(TonemapPush, LICHT_MEMBER(TonemapPush, exposure), LICHT_MEMBER(TonemapPush, curve)),
-        LICHT_RECORD(WavefrontPush, LICHT_MEMBER(WavefrontPush, sample_index), LICHT_MEMBER(WavefrontPush, first_row),
-                     LICHT_MEMBER(WavefrontPush, row_count), LICHT_MEMBER(WavefrontPush, bounce)),
+        LICHT_RECORD(WavefrontPush, LICHT_MEMBER(WavefrontPush, sample_index),
+                     LICHT_MEMBER(WavefrontPush, first_row), LICHT_MEMBER(WavefrontPush, row_count),
+                     LICHT_MEMBER(WavefrontPush, bounce)),
         LICHT_RECORD(RayRecord, LICHT_MEMBER(RayRecord, origin), LICHT_MEMBER(RayRecord, t_min),
                      LICHT_MEMBER(RayRecord, direction), LICHT_MEMBER(RayRecord, t_max)),
         LICHT_RECORD(RayHitRecord, LICHT_MEMBER(RayHitRecord, triangle), LICHT_MEMBER(RayHitRecord, t),
@@ -190,6 +190,7 @@ TEST(Records, noneIsForgotten) {
     std::set<std::string> declared;
     const auto folder = std::filesystem::path(LICHT_SOURCE) / "shaders" / "shared";
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+        if (entry.path().filename() == "light_views.h") continue;  // they stand in no buffer
         std::ifstream stream(entry.path());
         ASSERT_TRUE(stream) << entry.path();
         std::stringstream text;

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // Samples of the lights as seen from a place: what their rays meet, and what looking that up says.
-#include "bound/light.glsl"
+#include "light/light.glsl"
 
 layout(local_size_x = 64) in;
 layout(push_constant) uniform Push { uint count; uint per_place; };
@@ -27,13 +27,9 @@ void main() {
     if (i >= count) return;
     Place place = places[i / per_place];
     SampleAddress address = SampleAddress(uvec2(i & 1023u, i >> 10u), 0u, 1u);
-    Surface from;
-    from.position = place.position;
-    from.error_bound = place.error_bound;
-    from.face_normal = place.normal;
-    from.frame = frameFromNormal(place.normal);
-    LightAsker asker = LightAsker(place.position, packOctahedral(place.normal), 0u, 0u);
-    LightSample light = sampleLight(from, asker, address, 0u);
+    Vertex from = Vertex(place.position, place.normal, place.error_bound);
+    PackedShadingPoint at = packShadingPoint(ShadingPoint(place.position, place.normal, place.normal, 1.0, 0.0));
+    LightSample light = sampleLight(from, at, address, 0u);
     vec3 origin = offsetOrigin(from, light.direction);
     ShadowRay shadow = kNoShadowRay;
     if (light.valid) {
@@ -46,6 +42,6 @@ void main() {
     trace(nearest);
     Hit met = nearest.hit;
     float looked_up = 0.0;
-    if (met.instance != kNoIndex) looked_up = pdfOfSurface(surfaceAt(met, -normalize(direction)), asker);
-    answers[i] = Answer(light.direction, light.valid ? light.pdf : 0.0, looked_up, light.target, met.instance, light.valid && arrives(shadow) ? 1u : 0u);
+    if (met.instance != kNoIndex) looked_up = pdfOfSurface(surfaceAt(met, -normalize(direction)), at);
+    answers[i] = Answer(light.direction, light.valid ? light.pdf : 0.0, looked_up, light.target, met.instance, light.valid && largest(arrivingShare(shadow)) > 0.0 ? 1u : 0u);
 }

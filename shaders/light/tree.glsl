@@ -1,10 +1,11 @@
 // One light of many, by a walk down a tree: at each node a child is taken the more often the more it is likely to send.
 // Conty Estevez and Kulla 2018, Importance Sampling of Many Lights with Adaptive Tree Splitting. Bounds are conservative: what can light a point has a
 // probability greater than zero there.
-#ifndef LICHT_BOUND_LIGHT_TREE_GLSL
-#define LICHT_BOUND_LIGHT_TREE_GLSL
+#ifndef LICHT_LIGHT_TREE_GLSL
+#define LICHT_LIGHT_TREE_GLSL
 
 #include "bound/scene_data.glsl"
+#include "light/shading_point.glsl"
 #include "pure/bsdf.glsl"
 #include "pure/spherical.glsl"
 #include "shared/bindings.h"
@@ -32,34 +33,25 @@ float meanAboveZero(float c, float s) {
 // Of an angle up to pi / 2; the cosine of a sine as well.
 float sineOf(float cosine) { return sqrt(max(1.0 - cosine * cosine, 0.0)); }
 
-// How a surface receives light.
-struct Receiver {
-    vec3 position;  // world
-    vec3 normal;    // world, unit
-    vec3 wo;        // world, unit, where it sends the light to
-    float alpha;    // GGX width of its coat
-    float coat;     // F G / (4 cos_o) of the coat over the base's albedo; 0: Lambertian
-};
-
 // What the lights below a child send to a surface and it sends on, about, up to a factor that siblings share: their mean over positions in the bounding
 // sphere and over normals. Not the most that it could be, by which Conty Estevez and Kulla pick: bounds of near and wide clusters are furthest from what
 // comes, and in a hall of 200 lamps picks by them had twice the variance. It is 0 only where nothing can come; elsewhere a share of the best is
 // kept for the light that is better placed than the mean of its cluster.
-float lightImportance(LightChildRecord c, Receiver r) {
-    vec3 d = c.centre - r.position;
+float lightImportance(LightChildRecord c, ShadingPoint at) {
+    vec3 d = c.centre - at.position;
     float d2 = dot(d, d);
     float inverse = inversesqrt(max(d2, kLeastSquare));
-    float facing = dot(d, r.normal);
+    float facing = dot(d, at.normal);
     // How far the box rises above the surface's horizon.
-    if (facing + dot(c.half_size, abs(r.normal)) + kLightSlack * (d2 * inverse) <= 0.0) return 0.0;
+    if (facing + dot(c.half_size, abs(at.normal)) + kLightSlack * (d2 * inverse) <= 0.0) return 0.0;
     float sin_sphere = min(c.radius * inverse, 1.0), cos_sphere = sineOf(sin_sphere);
     float received = max(meanAboveZero(facing * inverse, sin_sphere), kLightLeastReceived * sin_sphere + kLightSlack);
-    if (kGlossy && r.coat > 0.0) {
+    if (kGlossy && at.coat > 0.0) {
         // pi D of the half vector, its lobe as much wider as the sphere is.
-        float a2 = min(r.alpha * r.alpha + kLightWidening * sin_sphere * sin_sphere, 1.0);
-        float cos_sum = max(dot(r.wo, r.normal) + facing * inverse, 0.0), sum2 = 2.0 + 2.0 * dot(r.wo, d) * inverse;
+        float a2 = min(at.alpha * at.alpha + kLightWidening * sin_sphere * sin_sphere, 1.0);
+        float cos_sum = max(dot(at.wo, at.normal) + facing * inverse, 0.0), sum2 = 2.0 + 2.0 * dot(at.wo, d) * inverse;
         float x = sum2 / max(a2 * cos_sum * cos_sum + max(sum2 - cos_sum * cos_sum, 0.0), kLeastSquare);
-        received += r.coat * a2 * x * x;
+        received += at.coat * a2 * x * x;
     }
 
     // The angle to the axis within which light can come: that of the normals, of the emission and of the sphere. `spread` is less its cosine.
@@ -85,20 +77,18 @@ struct LightNode {
     uvec4 next;
 };
 
-LightNode lightNodeAt(uint node, Receiver r) {
+LightNode lightNodeAt(uint node, ShadingPoint at) {
     uint first = kLightChildren * node;
     LightChildRecord a = lightChildAt(first), b = lightChildAt(first + 1u), c = lightChildAt(first + 2u), d = lightChildAt(first + 3u);
-    return LightNode(vec4(lightImportance(a, r), lightImportance(b, r), lightImportance(c, r),
-                          lightImportance(d, r)),
-                     uvec4(a.next, b.next, c.next, d.next));
+    return LightNode(vec4(lightImportance(a, at), lightImportance(b, at), lightImportance(c, at), lightImportance(d, at)), uvec4(a.next, b.next, c.next, d.next));
 }
 
-TreePick pickInTree(Receiver r, vec2 u) {
+TreePick pickInTree(ShadingPoint at, vec2 u) {
     TreePick pick = TreePick(kNoIndex, 1.0);
     uint node = 0u, level = 0u;
     float x = u.x;
     while (true) {
-        LightNode n = lightNodeAt(node, r);
+        LightNode n = lightNodeAt(node, at);
         float sum = n.importance.x + n.importance.y + n.importance.z + n.importance.w;
         if (!(sum > 0.0)) break;
         // The number that has chosen is stretched for the next level; when its bits run low the other one takes over.
@@ -123,11 +113,11 @@ TreePick pickInTree(Receiver r, vec2 u) {
 }
 
 // With what probability the walk from this surface ends at the light of that trail.
-float pmfInTree(Receiver r, uint trail) {
+float pmfInTree(ShadingPoint at, uint trail) {
     float pmf = 1.0;
     uint node = 0u;
     while (true) {
-        LightNode n = lightNodeAt(node, r);
+        LightNode n = lightNodeAt(node, at);
         float sum = n.importance.x + n.importance.y + n.importance.z + n.importance.w;
         vec4 p = n.importance / sum;
         uint k = trail & (kLightChildren - 1u);

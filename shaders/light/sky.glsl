@@ -1,6 +1,6 @@
 // Radiance from infinitely far, stored as a latitude-longitude map, and directions drawn by it.
-#ifndef LICHT_BOUND_ENVIRONMENT_GLSL
-#define LICHT_BOUND_ENVIRONMENT_GLSL
+#ifndef LICHT_LIGHT_SKY_GLSL
+#define LICHT_LIGHT_SKY_GLSL
 
 #include "bound/scene.glsl"
 #include "pure/latlong.glsl"
