@@ -29,7 +29,7 @@ vec4 baseColorAt(MaterialRecord m, uvec3 v, vec3 weights) {
 }
 
 // Coverage: a masked or blended surface is there or not, for this ray, as one number decides.
-bool covers(uint instance, uint primitive, float b1, float b2, float u) {
+bool passesAlphaTest(uint instance, uint primitive, float b1, float b2, float u) {
     MaterialRecord m = materialAt(instanceAt(instance).material);
     if ((m.flags & (kMaterialAlphaMask | kMaterialAlphaBlend)) == 0u) return true;
     uvec3 v = triangleVertices(instance, primitive);

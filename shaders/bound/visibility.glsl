@@ -39,7 +39,7 @@ Hit hitOf(TraceHit t) {
 // What a surface lets pass of light that goes straight on: by its coverage all or nothing, as one number decides.
 vec3 transmittanceOf(SceneRay ray, uint triangle) {
     float u = coverageNumber(ray.address, ray.rays_before, ray.hit.instance, triangle);
-    return covers(ray.hit.instance, ray.hit.primitive, ray.hit.b1, ray.hit.b2, u) ? vec3(0.0) : vec3(1.0);
+    return passesAlphaTest(ray.hit.instance, ray.hit.primitive, ray.hit.b1, ray.hit.b2, u) ? vec3(0.0) : vec3(1.0);
 }
 
 // Does the ray go on behind what it met? That is asked once per surface and not inside the traversal, because drivers without branches would filter textures

@@ -19,7 +19,7 @@ void main() {
     if (kAlpha && (instanceAt(instance_primitive.x).flags & kInstanceAlpha) != 0u) {
         SampleAddress address = SampleAddress(uvec2(gl_FragCoord.xy), push.sample_index, frame.seed);
         uint triangle = instanceAt(instance_primitive.x).first_triangle + instance_primitive.y;
-        if (!covers(instance_primitive.x, instance_primitive.y, b.x, b.y, coverageNumber(address, 0u, instance_primitive.x, triangle))) discard;
+        if (!passesAlphaTest(instance_primitive.x, instance_primitive.y, b.x, b.y, coverageNumber(address, 0u, instance_primitive.x, triangle))) discard;
     }
     hit_record = uvec4(instance_primitive, floatBitsToUint(b));
 }
