@@ -79,6 +79,24 @@ void requireStage(const Reflection& stage, VkShaderStageFlagBits wanted, const s
     }
 }
 
+VkPipelineRasterizationStateCreateInfo rasterizationInfo() {
+    VkPipelineRasterizationStateCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO;
+    info.polygonMode = VK_POLYGON_MODE_FILL;
+    info.frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE;
+    info.lineWidth = 1.0F;
+    return info;
+}
+
+VkPipelineDepthStencilStateCreateInfo depthInfo(bool has_depth) {
+    VkPipelineDepthStencilStateCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO;
+    info.depthTestEnable = has_depth ? VK_TRUE : VK_FALSE;
+    info.depthWriteEnable = info.depthTestEnable;
+    info.depthCompareOp = VK_COMPARE_OP_GREATER;
+    return info;
+}
+
 }  // namespace
 
 void Program::createLayout(const std::vector<Reflection>& stages) {
@@ -189,20 +207,11 @@ Program Program::raster(Device& device, std::string name, Spirv vertex, Spirv fr
     viewport.sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO;
     viewport.viewportCount = 1;
     viewport.scissorCount = 1;
-    VkPipelineRasterizationStateCreateInfo rasterization{};
-    rasterization.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO;
-    rasterization.polygonMode = VK_POLYGON_MODE_FILL;
-    rasterization.frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE;
-    rasterization.lineWidth = 1.0F;
+    const VkPipelineRasterizationStateCreateInfo rasterization = rasterizationInfo();
     VkPipelineMultisampleStateCreateInfo multisample{};
     multisample.sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO;
     multisample.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
-    const bool has_depth = state.depth_format != VK_FORMAT_UNDEFINED;
-    VkPipelineDepthStencilStateCreateInfo depth{};
-    depth.sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO;
-    depth.depthTestEnable = has_depth ? VK_TRUE : VK_FALSE;
-    depth.depthWriteEnable = depth.depthTestEnable;
-    depth.depthCompareOp = VK_COMPARE_OP_GREATER;
+    const VkPipelineDepthStencilStateCreateInfo depth = depthInfo(state.depth_format != VK_FORMAT_UNDEFINED);
 
     VkPipelineColorBlendAttachmentState overwrite{};
     overwrite.colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT |

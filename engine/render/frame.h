@@ -32,7 +32,7 @@ public:
     void begin();
     /// The passes of a slice.
     void record(gpu::Commands& commands, std::size_t slot, const Slice& slice) const;
-    /// From the mean so far, or from another, to what a display shows.
+    /// From the mean so far to what a display shows.
     void recordDisplay(gpu::Commands& commands, const TonemapPush& push) const;
     /// Whether the frame behind that many samples draws the layers.
     [[nodiscard]] bool drawsLayers(std::uint32_t count_before) const;

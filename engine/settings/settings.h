@@ -29,7 +29,7 @@ struct RenderSettings {
     bool regularise = false;  ///< widen glossy lobes behind a first scattering (biased)
     bool orders = false;      ///< keep a layer per order T^i Le
     bool adaptive = false;    ///< samples are drawn where a mask says so
-    LayerSet layers;
+    LayerSet layers;          ///< beside the picture; passes and memory only where they are asked for
     /// Compile everything, called for or not (the reference for the specialised programs).
     bool all_effects = false;
     BvhQuality bvh_quality = BvhQuality::balanced;
