@@ -218,6 +218,12 @@ LightRecord spotRecord(const PunctualLight& light) {
                     {light.position, light.range, light.intensity, light.direction, scale, -outer * scale});
 }
 
+// No length of its own, so that a scene's scale changes no pick. Where there is nothing to light any will do.
+double fluxRadius(const Scene& scene) {
+    const auto radius = static_cast<double>(sceneBounds(scene).radius());
+    return radius > 0.0 ? radius : 1.0;
+}
+
 // Flux; a directional light's is what passes through the scene's bounding sphere.
 double flux(const PunctualLight& light, double radius) {
     const double intensity = strength(light.intensity);
@@ -253,7 +259,7 @@ LightTable buildLightTable(const Scene& scene, const Effects& effects, const Pic
         addShapes(scene, effects.has(kEffectLightSpheres), table, weights);
     const std::size_t shapes = weights.size();
     const bool punctual = effects.has(kEffectPunctualLights);
-    const double radius = std::max(static_cast<double>(sceneBounds(scene).radius()), 1.0);
+    const double radius = fluxRadius(scene);
     const auto addPunctual = [&](bool directional, bool disc) {
         for (const PunctualLight& light : scene.lights) {
             if (!punctual || (light.kind == PunctualLight::Kind::directional) != directional ||

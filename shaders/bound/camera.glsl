@@ -9,7 +9,7 @@
 // Where in its pixel sample `index` lies, box filter. The rasteriser has one projection a frame, so all pixels share the offset and its noise would not
 // average out over them: whatever the sampler is, the offsets fill the pixel evenly. Against multiples of two irrational numbers the error of an edge through
 // the pixel is 0.7 times as large after 16 samples and 0.8 times after 256, that of a gradient 0.2 and 0.04 times.
-vec2 cameraJitter(uint index, uint seed) { return uniformFromBits(sobolBits4(SampleAddress(uvec2(0xffffu), index, seed), kDimensionCamera)).xy; }
+vec2 cameraJitter(uint index, uint seed) { return uniformFromBits(sobolBits4(SampleAddress(uvec2(0xffffu), index, seed), kDimensionPixel)).xy; }
 
 // World position relative to the eye -> clip space; w is the distance along the axis, depth is reversed: 1 at the near plane, 0 far away.
 vec4 clipFromRelative(ViewRecord view, vec3 relative, vec2 jitter) {

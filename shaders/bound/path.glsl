@@ -46,7 +46,6 @@ float weightOfScattering(float scatter_pdf, float light_pdf) {
 // A path on its way.
 struct Path {
     SampleAddress address;  // of the sample that it is
-    uint rays;              // traced for it so far
     Hit hit;                // the next vertex; kNoIndex: it has left the scene
     vec3 wo;                // unit, world, from there to the vertex before
     vec3 radiance;          // found so far
@@ -60,7 +59,7 @@ struct Path {
 
 // What the camera's ray, the first one, met. wo: unit, world, away from the scene.
 Path beginPath(SampleAddress address, Hit hit, vec3 wo) {
-    return Path(address, 1u, hit, wo, vec3(0.0), vec3(1.0), kNoShadingPoint, 0.0, 0u, kNoIndex, true);
+    return Path(address, hit, wo, vec3(0.0), vec3(1.0), kNoShadingPoint, 0.0, 0u, kNoIndex, true);
 }
 
 // Light that would arrive straight from a sampled light and scatter towards wo, one order of T applied to Le, with the ray that asks whether it does.
@@ -77,7 +76,8 @@ ShadowRay directLight(Surface s, PackedShadingPoint at, vec3 wo_local, uint dime
     if (largest(scattered.f) <= 0.0) return kNoShadowRay;
     float weight = weightOfLightSample(light, scattered.pdf);
     RayQuery query = shadowQuery(offsetOrigin(vertexOn(s), wi), light.direction, light.t_max, light.t_enough);
-    return ShadowRay(sceneRay(query, p.address, p.rays), light.target, scattered.f * light.radiance * (wi_local.z * weight / light.pdf), true);
+    return ShadowRay(sceneRay(query, p.address, kRayToLight + kRaysPerBounce * p.bounce), light.target,
+                     scattered.f * light.radiance * (wi_local.z * weight / light.pdf), true);
 }
 
 // The including shader defines what else happens to light that a path found, and to the rays that looked for light of an order: nothing, or a note.
@@ -151,7 +151,6 @@ void extendPath(inout Path p, inout PathCounts counts, out ShadowRay to_light, o
     PackedShadingPoint at = shadingPointAt(s, p.wo);
     if (kLightTriangles || kPunctualLights || kEnvironment) to_light = directLight(s, at, wo_local, dimension, p, counts);
     to_light.light *= p.throughput;
-    p.rays += to_light.wanted ? 1u : 0u;
 
     // Sample the BSDF: the direction by the pair of numbers that is spread evenly together.
     vec4 u = sample4(p.address, dimension + kDimensionScatter);
@@ -171,7 +170,7 @@ void extendPath(inout Path p, inout PathCounts counts, out ShadowRay to_light, o
 
     // Follow the ray.
     if (p.alive) {
-        onward = sceneRay(pathQuery(offsetOrigin(vertexOn(s), wi), wi), p.address, p.rays++);
+        onward = sceneRay(pathQuery(offsetOrigin(vertexOn(s), wi), wi), p.address, kRayOnward + kRaysPerBounce * p.bounce);
         p.wo = -wi;
         p.from = at;
         p.scatter_pdf = scattered.pdf;

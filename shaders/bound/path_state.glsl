@@ -21,7 +21,7 @@ uvec4 pathTexel(uint path, uint texel) { return texelFetch(queue_path_texels, in
 void packPath(uint path, Path p) {
     uint at = path * kPathTexels;
     queue_paths[at + kPathWay] = uvec4(floatBitsToUint(p.wo), floatBitsToUint(p.scatter_pdf));
-    queue_paths[at + kPathThroughput] = uvec4(floatBitsToUint(p.throughput), p.bounce | (p.rays << 16u));
+    queue_paths[at + kPathThroughput] = uvec4(floatBitsToUint(p.throughput), p.bounce);
     queue_paths[at + kPathFrom] = uvec4(floatBitsToUint(p.from.position), p.address.pixel.x | (p.address.pixel.y << 16u));
     if (kHeedsGloss) queue_paths[at + kPathGloss] = uvec4(p.from.wo, p.from.gloss, p.medium, 0u);
 }
@@ -37,8 +37,7 @@ Path unpackPath(uint path, uint frame_index) {
     Path p = beginPath(unpackAddress(path, frame_index), Hit(hit.x, hit.y, uintBitsToFloat(hit.z), uintBitsToFloat(hit.w)), uintBitsToFloat(way.xyz));
     p.scatter_pdf = uintBitsToFloat(way.w);
     p.throughput = uintBitsToFloat(throughput.xyz);
-    p.bounce = throughput.w & 0xffffu;
-    p.rays = throughput.w >> 16u;
+    p.bounce = throughput.w;
     p.from.position = uintBitsToFloat(pathTexel(path, kPathFrom).xyz);
     p.from.normal = pathTexel(path, kPathRadiance).w;
     if (kHeedsGloss) {
@@ -68,13 +67,12 @@ void packRay(uint place, RayQuery ray, uint path) {
     queue_rays[at + kRayDirection] = uvec4(floatBitsToUint(ray.direction), 0u);
 }
 
-// The last ray that its path has asked for.
-SceneRay unpackRay(uint place, uint frame_index, out uint path) {
+SceneRay unpackRay(uint place, uint frame_index, uint bounce, out uint path) {
     int at = int(kRayTexels * place);
     uvec4 o = texelFetch(queue_ray_texels, at + int(kRayOrigin)), d = texelFetch(queue_ray_texels, at + int(kRayDirection));
     path = o.w;
-    uint rays = pathTexel(path, kPathThroughput).w >> 16u;
-    return sceneRay(pathQuery(uintBitsToFloat(o.xyz), uintBitsToFloat(d.xyz)), unpackAddress(path, frame_index), rays - 1u);
+    RayQuery ray = pathQuery(uintBitsToFloat(o.xyz), uintBitsToFloat(d.xyz));
+    return sceneRay(ray, unpackAddress(path, frame_index), kRayOnward + kRaysPerBounce * bounce);
 }
 
 void packShadow(uint place, ShadowRay shadow, uint path) {
@@ -82,18 +80,19 @@ void packShadow(uint place, ShadowRay shadow, uint path) {
     RayQuery ray = shadow.ray.query;
     queue_shadows[at + kShadowOrigin] = uvec4(floatBitsToUint(ray.origin), floatBitsToUint(ray.t_max));
     queue_shadows[at + kShadowDirection] = uvec4(floatBitsToUint(ray.direction), path);
-    queue_shadows[at + kShadowLight] = uvec4(floatBitsToUint(shadow.light), shadow.ray.rays_before);
-    if (kLightSpheres) queue_shadows[at + kShadowTarget] = uvec4(shadow.target, floatBitsToUint(ray.t_enough), 0u, 0u);
+    queue_shadows[at + kShadowLight] = uvec4(floatBitsToUint(shadow.light), shadow.target);
+    if (kLightSpheres) queue_shadows[at + kShadowEnough] = uvec4(floatBitsToUint(ray.t_enough), 0u, 0u, 0u);
 }
 
-ShadowRay unpackShadow(uint place, uint frame_index, out uint path) {
+ShadowRay unpackShadow(uint place, uint frame_index, uint bounce, out uint path) {
     int at = int(kShadowTexels * place);
     uvec4 o = texelFetch(queue_shadow_texels, at + int(kShadowOrigin)), d = texelFetch(queue_shadow_texels, at + int(kShadowDirection));
-    uvec4 light = texelFetch(queue_shadow_texels, at + int(kShadowLight)), target = uvec4(kNoIndex, 0u, 0u, 0u);
-    if (kLightSpheres) target = texelFetch(queue_shadow_texels, at + int(kShadowTarget));
+    uvec4 light = texelFetch(queue_shadow_texels, at + int(kShadowLight));
+    float t_enough = kLightSpheres ? uintBitsToFloat(texelFetch(queue_shadow_texels, at + int(kShadowEnough)).x) : 0.0;
     path = d.w;
-    RayQuery ray = shadowQuery(uintBitsToFloat(o.xyz), uintBitsToFloat(d.xyz), uintBitsToFloat(o.w), uintBitsToFloat(target.y));
-    return ShadowRay(sceneRay(ray, unpackAddress(path, frame_index), light.w), target.x, uintBitsToFloat(light.xyz), true);
+    RayQuery ray = shadowQuery(uintBitsToFloat(o.xyz), uintBitsToFloat(d.xyz), uintBitsToFloat(o.w), t_enough);
+    SceneRay traced = sceneRay(ray, unpackAddress(path, frame_index), kRayToLight + kRaysPerBounce * bounce);
+    return ShadowRay(traced, light.w, uintBitsToFloat(light.xyz), true);
 }
 
 #endif

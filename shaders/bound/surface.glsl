@@ -25,10 +25,10 @@ struct Surface {
 // works relative to the ray's origin, adds about as many of the triangle's own extent. Measured needs are 1 to 8 units.
 const float kPositionUnits = 32.0 * 5.9604644775390625e-8;
 
-float coverageNumber(SampleAddress address, uint rays_before, uint instance, uint triangle) {
+float coverageNumber(SampleAddress address, uint ray, uint instance, uint triangle) {
     uint key = triangle * 0x9e3779b9u;
     if (kInstances) key ^= placementKey(instance);
-    return random4(SampleAddress(address.pixel, address.index, address.seed ^ key), kDimensionAlpha + rays_before).x;
+    return random4(SampleAddress(address.pixel, address.index, address.seed ^ key), kDimensionCoverage + ray).x;
 }
 
 // A triangle's plane.

@@ -1,5 +1,5 @@
 // Follows a ray through the wide tree of shared/bvh_layout.h. The twin of engine/bvh/traverse.cpp.
-// A ray goes in as a value and what it met comes out as one; only the stack is kept outside of both (see bvh_stack).
+// A ray goes in as a value and what it met comes out as one; only the stack is kept outside of both.
 #ifndef LICHT_BOUND_TRAVERSAL_GLSL
 #define LICHT_BOUND_TRAVERSAL_GLSL
 #include "bound/instance_effect.glsl"
@@ -219,7 +219,7 @@ struct Traversal {
     uint base;           // entries below belong to the world, which the ray has left for an object
 };
 
-// Not a member of Traversal.
+// Not a member of Traversal, because GLSL neither assigns nor returns what holds an array that a specialisation constant sizes.
 uint bvh_stack[kBvhStackSize + 1u];  // one more, because kRefilled writes behind the last entry
 
 bool goesOn(Traversal s) { return s.current != kBvhNone || s.triangles != 0u || (kInstances && s.instance != kNoIndex); }

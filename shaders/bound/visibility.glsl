@@ -12,15 +12,15 @@ layout(constant_id = kEffectLightSpheres) const bool kLightSpheres = false;
 // A ray on its way through the scene: surfaces that are not there for it let it pass.
 struct SceneRay {
     RayQuery query;
-    SampleAddress address;  // whose ray it is, and how many that sample traced before: by both the coverage of partly transparent surfaces is decided
-    uint rays_before;
+    SampleAddress address;  // whose ray it is, and which of its rays (dimensions.h): by both the coverage of partly transparent surfaces is decided
+    uint number;
     Hit hit;                // what it met last
     vec3 transmittance;     // of what it has passed
     bool truncated;         // see TraceResult
 };
 
-SceneRay sceneRay(RayQuery query, SampleAddress address, uint rays_before) {
-    return SceneRay(query, address, rays_before, kNoHit, vec3(1.0), false);
+SceneRay sceneRay(RayQuery query, SampleAddress address, uint number) {
+    return SceneRay(query, address, number, kNoHit, vec3(1.0), false);
 }
 
 // Behind a surface that was not there a ray goes on at that very distance: only what comes later in the order of hits, (t, instance, triangle), counts.
@@ -38,7 +38,7 @@ Hit hitOf(TraceHit t) {
 
 // What a surface lets pass of light that goes straight on: by its coverage all or nothing, as one number decides.
 vec3 transmittanceOf(SceneRay ray, uint triangle) {
-    float u = coverageNumber(ray.address, ray.rays_before, ray.hit.instance, triangle);
+    float u = coverageNumber(ray.address, ray.number, ray.hit.instance, triangle);
     return passesAlphaTest(ray.hit.instance, ray.hit.primitive, ray.hit.b1, ray.hit.b2, u) ? vec3(0.0) : vec3(1.0);
 }
 

@@ -14,7 +14,7 @@ struct RayTask {
 
 RayTask takeTask(uint i) {
     RayTask task;
-    task.shadow = unpackShadow(i, push.sample_index, task.path);
+    task.shadow = unpackShadow(i, push.sample_index, push.bounce, task.path);
     return task;
 }
 

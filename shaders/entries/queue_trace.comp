@@ -15,7 +15,7 @@ struct RayTask {
 
 RayTask takeTask(uint i) {
     RayTask task;
-    task.ray = unpackRay(i, push.sample_index, task.path);
+    task.ray = unpackRay(i, push.sample_index, push.bounce, task.path);
     return task;
 }
 

@@ -42,7 +42,7 @@ LightSample sampleLight(Vertex from, PackedShadingPoint at, SampleAddress addres
     uint kind = kindOf(light);
     if (kLightTriangles && (kind == kLightTriangle || kind == kLightRectangle)) return sampleShape(light, pmf, from, u.xy);
     if (kLightSpheres && kind == kLightSphere) return sampleSphere(light, pmf, from, u.xy);
-    if (kEnvironment && kind == kLightEnvironment) return sampleSky(pmf, sampleBits4(address, dimension + kDimensionEnvironment));
+    if (kEnvironment && kind == kLightEnvironment) return sampleSky(pmf, sampleBits4(address, dimension + kDimensionSky));
     if (kPunctualLights && kind == kLightDirectional) return sampleSun(light, u.xy);
     if (kPunctualLights) return sampleSpot(light, pmf, from);
     return kNoLight;

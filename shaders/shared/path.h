@@ -16,7 +16,7 @@ struct WavefrontPush {
 // Of a path:
 LICHT_CONSTANT uint kPathHit = 0u;                     // the next vertex
 LICHT_CONSTANT uint kPathWay = kPathHit + 1u;          // wo; scatter_pdf
-LICHT_CONSTANT uint kPathThroughput = kPathWay + 1u;   // throughput; bounce | rays << 16
+LICHT_CONSTANT uint kPathThroughput = kPathWay + 1u;   // throughput; bounce
 LICHT_CONSTANT uint kPathFrom = kPathThroughput + 1u;  // position of the vertex before; pixel x | y << 16
 LICHT_CONSTANT uint kPathRadiance = kPathFrom + 1u;    // found so far; normal of the vertex before
 LICHT_CONSTANT uint kPathGloss = kPathRadiance + 1u;   // of the vertex before: wo, gloss; then the medium and a word that is free
@@ -28,9 +28,9 @@ LICHT_CONSTANT uint kRayTexels = kRayDirection + 1u;
 // Of a ray to a light:
 LICHT_CONSTANT uint kShadowOrigin = 0u;                     // origin; t_max
 LICHT_CONSTANT uint kShadowDirection = kShadowOrigin + 1u;  // direction; path
-LICHT_CONSTANT uint kShadowLight = kShadowDirection + 1u;   // what it brings; rays before
-LICHT_CONSTANT uint kShadowTarget = kShadowLight + 1u;      // target, t_enough
-LICHT_CONSTANT uint kShadowTexels = kShadowTarget + 1u;
+LICHT_CONSTANT uint kShadowLight = kShadowDirection + 1u;   // what it brings; target
+LICHT_CONSTANT uint kShadowEnough = kShadowLight + 1u;      // t_enough, where lights are spheres
+LICHT_CONSTANT uint kShadowTexels = kShadowEnough + 1u;
 
 // Four counts a bounce: paths to extend, rays to trace, shadow rays to trace.
 LICHT_CONSTANT uint kQueueCounts = 4u;

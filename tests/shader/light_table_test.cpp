@@ -285,6 +285,29 @@ TEST(LightTable, ARoundMeshIsOneLight) {
     EXPECT_NEAR(sum, r / (1.0 + r), 1e-6);
 }
 
+// The same scene in other units of length: flux grows by the square for every light, so that the picks are
+// the same. The points and the sun share a kind.
+TEST(LightTable, PicksDoNotDependOnTheUnitOfLength) {
+    const auto tableInUnits = [](float scale) {
+        Scene scene = sceneOfQuads(0);
+        scene.instances[0].world_from_object = glm::scale(mat4(1.0F), vec3(0.02F * scale));
+        PunctualLight point;
+        point.position = vec3(scale);
+        point.intensity = vec3(scale * scale);
+        PunctualLight sun;
+        sun.kind = PunctualLight::Kind::directional;
+        sun.intensity = vec3(0.5F);
+        scene.lights = {point, sun};
+        return tableOf(scene, LightChoice::power);
+    };
+    const LightTable metres = tableInUnits(1.0F);
+    const LightTable small = tableInUnits(1e-3F);
+    ASSERT_EQ(metres.alias.size(), 2U);
+    for (std::size_t i = 0; i < 2; ++i) EXPECT_NEAR(small.alias[i].pmf, metres.alias[i].pmf, 1e-6F) << i;
+    EXPECT_GT(metres.alias[1].pmf, 0.05F);
+    EXPECT_LT(metres.alias[1].pmf, 0.95F);
+}
+
 TEST(LightTable, UniformMeansAlikeAndPowerMeansByFlux) {
     Scene scene = sceneOfQuads(2);
     scene.instances[2].world_from_object = glm::scale(mat4(1.0F), vec3(2.0F));

@@ -173,7 +173,7 @@ double correlation(const std::vector<double>& a, const std::vector<double>& b) {
 }
 
 // Tables of Sobol's numbers end at dimension 1024, and what follows repeats what was before. A path of 500
-// bounces takes 1501 dimensions of four numbers.
+// bounces takes 2004 dimensions of four numbers.
 TEST_P(EverySequence, dimensionsNeverRepeat) {
     constexpr std::uint32_t kSamples = 1U << 14U;
     for (const std::uint32_t dimension : {1U, 2U, 3U, 255U, 477U}) {
