@@ -36,7 +36,7 @@ std::set<std::string> namedIn(const std::string& text) {
 }
 
 TEST(GltfExtensions, TheReadmeNamesEachAndNoOther) {
-    const auto file = std::filesystem::path(__FILE__).parent_path() / ".." / ".." / "README.md";
+    const auto file = std::filesystem::path(LICHT_SOURCE) / "README.md";
     std::ifstream stream(file);
     ASSERT_TRUE(stream) << file;
     std::stringstream text;

@@ -485,13 +485,12 @@ TEST_F(Gltf, PunctualLights) {
 
 TEST_F(Gltf, OptionalExtensionsThatAreUnknownWarnOnce) {
     GltfFile file = GltfFile::triangle();
-    file.json["extensionsUsed"] = {"KHR_materials_clearcoat", "EXT_texture_webp",
-                                   "KHR_draco_mesh_compression"};
+    file.json["extensionsUsed"] = {"KHR_materials_sheen", "EXT_texture_webp", "KHR_draco_mesh_compression"};
     file.primitive()["material"] = 0;
     file.primitive()["extensions"] = {
         {"KHR_draco_mesh_compression", {{"bufferView", 0}, {"attributes", Json::object()}}}};
     file.json["materials"] =
-        Json::array({{{"extensions", {{"KHR_materials_clearcoat", {{"clearcoatFactor", 1}}}}}}});
+        Json::array({{{"extensions", {{"KHR_materials_sheen", {{"sheenRoughnessFactor", 1}}}}}}});
     const Scene scene = load(file);
     EXPECT_EQ(scene.notes.size(), 3U) << notesOf(scene);
     EXPECT_EQ(scene.meshes.at(0).triangles.size(), 1U) << "the uncompressed accessors are used";
