@@ -48,8 +48,8 @@ struct Spot {
     vec3 wo;        // unit, world
 };
 
-// glTF's normal map: tangent space of the interpolated normal and the vertices' tangents.
-vec3 mappedNormal(MaterialRecord m, uint kind, float scale, Spot p) {
+// glTF's normal map: tangent space of the interpolated normal and the vertices' tangents. k: in [-1,1].
+vec3 mappedNormal(vec3 k, float scale, Spot p) {
     uvec3 v = p.vertices;
     vec3 n = p.normal;
     vec4 t = p.weights.x * worldTangent(p.placement, tangents[v.x]) + p.weights.y * worldTangent(p.placement, tangents[v.y]) +
@@ -59,16 +59,15 @@ vec3 mappedNormal(MaterialRecord m, uint kind, float scale, Spot p) {
     if (!(length2 > 0.0)) return n;
     tangent *= inversesqrt(length2);
     vec3 bitangent = (t.w < 0.0 ? -1.0 : 1.0) * cross(n, tangent);
-    vec3 k = sampleSlot(m, kind, v, p.weights).xyz * 2.0 - 1.0;
     vec3 mapped = k.x * scale * tangent + k.y * scale * bitangent + k.z * n;
     float mapped2 = dot(mapped, mapped);
     return mapped2 > 0.0 ? mapped * inversesqrt(mapped2) : n;
 }
 
-// The normal by the map in that slot, unit, world, on the side of wo; bent back into view where interpolation or the map turns it away from wo.
-vec3 shadingNormal(MaterialRecord m, uint kind, float scale, Spot p) {
+// The normal by what the map in that slot has there, unit, world, on the side of wo; bent back into view where interpolation or the map turns it away from wo.
+vec3 shadingNormal(MaterialRecord m, uint kind, vec4 texel, float scale, Spot p) {
     vec3 n = p.normal;
-    if (kNormalMaps && p.tangents && hasTexture(m, kind)) n = mappedNormal(m, kind, scale, p);
+    if (kNormalMaps && p.tangents && hasTexture(m, kind)) n = mappedNormal(texel.xyz * 2.0 - 1.0, scale, p);
     n = p.front ? n : -n;
     // Keeps wo inside the hemisphere by more than the rounding of the frame. Normalising lengthens n by up to half its square, 5e-7 of it, which is given
     // back beforehand, and more.
@@ -82,23 +81,29 @@ Clearcoat clearcoatOf(MaterialRecord m, Spot p) {
     if (!kClearcoat || !hasBlock(m, kBlockClearcoat)) return kNoClearcoat;
     vec4 a = blockAt(m, kBlockClearcoat);
     ClearcoatRecord c = ClearcoatRecord(a.x, a.y, a.z, a.w);
-    return Clearcoat(c.factor * sampleSlot(m, kSlotClearcoat, p.vertices, p.weights).r,
-                     alphaOf(c.roughness * sampleSlot(m, kSlotClearcoatRoughness, p.vertices, p.weights).g),
-                     shadingNormal(m, kSlotClearcoatNormal, c.normal_scale, p));
+    vec3 normal = p.normal;
+    // A loop, so that the code of a texture is there once and not three times: drivers work through all of it before they see that a scene has no clearcoat.
+    for (uint kind = kSlotClearcoat; kind <= kSlotClearcoatNormal; ++kind) {
+        vec4 texel = sampleSlot(m, kind, p.vertices, p.weights);
+        if (kind == kSlotClearcoat) c.factor *= texel.r;
+        if (kind == kSlotClearcoatRoughness) c.roughness *= texel.g;
+        if (kind == kSlotClearcoatNormal) normal = shadingNormal(m, kind, texel, c.normal_scale, p);
+    }
+    return Clearcoat(c.factor, alphaOf(c.roughness), normal);
 }
 
 // Whether a surface may send different light from its points or in different directions.
 const bool kUnevenEmission = kTextures || kClearcoat;
 
 // Emitted towards wo, cd/m^2, as far as a clearcoat passes it. Single-sided surfaces emit from their front.
-vec3 emissionOf(MaterialRecord m, Spot p) {
+vec3 emissionOf(MaterialRecord m, Spot p, Clearcoat coat) {
     if (!kEmission || !(p.front || (m.flags & kMaterialDoubleSided) != 0u)) return vec3(0.0);
     vec3 emission = m.emission * sampleSlot(m, kSlotEmissive, p.vertices, p.weights).rgb;
-    return kClearcoat ? emission * (1.0 - albedoClearcoat(clearcoatOf(m, p), p.wo)) : emission;
+    return kClearcoat ? emission * (1.0 - albedoClearcoat(coat, p.wo)) : emission;
 }
 
-// frame: around the shading normal, in which the BSDF is local. base: the base colour.
-Bsdf bsdfOf(MaterialRecord m, Spot p, Frame frame, vec3 base) {
+// frame: around the shading normal, in which the BSDF is local. base: the base colour. coat: in the world.
+Bsdf bsdfOf(MaterialRecord m, Spot p, Frame frame, vec3 base, Clearcoat coat) {
     if (!kGlossy) return lambertBsdf(base);
     uvec3 v = p.vertices;
     vec3 weights = p.weights;
@@ -115,8 +120,8 @@ Bsdf bsdfOf(MaterialRecord m, Spot p, Frame frame, vec3 base) {
     }
     vec3 dielectric_f0 = min(m.dielectric_f0 * specular_color, vec3(1.0)) * specular;
     Bsdf b = Bsdf(Diffuse(base * (1.0 - metallic)), plainSpecular(alphaOf(roughness), mix(dielectric_f0, base, metallic), mix(specular, 1.0, metallic),
-                                                                  largest(dielectric_f0), specular), clearcoatOf(m, p));
-    b.clearcoat.normal = localFromWorld(frame, b.clearcoat.normal);
+                                                                  largest(dielectric_f0), specular),
+                  Clearcoat(coat.factor, coat.alpha, localFromWorld(frame, coat.normal)));
     if (kIridescence && hasBlock(m, kBlockIridescence)) {
         IridescenceRecord iridescence = iridescenceOf(m);
         float thickness = iridescence.thickness_maximum;

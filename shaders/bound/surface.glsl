@@ -71,7 +71,9 @@ Spot spotAt(InstanceRecord instance, uvec3 v, vec3 weights, Placement at, vec3 f
 vec3 emissionAt(uint instance_index, uint primitive, vec3 weights, vec3 face_normal, bool front, vec3 wo) {
     InstanceRecord instance = instanceAt(instance_index);
     uvec3 v = triangleVertices(instance_index, primitive);
-    return emissionOf(materialAt(instance.material), spotAt(instance, v, weights, placementOf(instance_index), face_normal, front, wo));
+    MaterialRecord m = materialAt(instance.material);
+    Spot spot = spotAt(instance, v, weights, placementOf(instance_index), face_normal, front, wo);
+    return emissionOf(m, spot, clearcoatOf(m, spot));
 }
 
 // wo: unit, world, towards where the path came from.
@@ -91,13 +93,14 @@ Surface surfaceAt(Hit hit, vec3 wo) {
     s.error_bound = face.error_bound;
 
     Spot spot = spotAt(instance, v, weights, at, face.normal, s.front, wo);
-    s.frame = frameFromNormal(shadingNormal(m, kSlotNormal, m.normal_scale, spot));
+    s.frame = frameFromNormal(shadingNormal(m, kSlotNormal, sampleSlot(m, kSlotNormal, v, weights), m.normal_scale, spot));
 
     vec4 base = baseColorAt(m, v, weights);
     bool unlit = kUnlit && (m.flags & kMaterialUnlit) != 0u;
     s.base_color = base.rgb;
-    s.bsdf = bsdfOf(m, spot, s.frame, base.rgb);
-    s.emission = emissionOf(m, spot);
+    Clearcoat coat = clearcoatOf(m, spot);
+    s.bsdf = bsdfOf(m, spot, s.frame, base.rgb, coat);
+    s.emission = emissionOf(m, spot, coat);
     s.light = kNoIndex;
     if (kLightTriangles && instance.first_light != kNoIndex && largest(s.emission) > 0.0) s.light = instance.first_light + hit.primitive;
     if (unlit) {
