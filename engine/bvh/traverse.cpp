@@ -1,4 +1,4 @@
-// The algorithm of shaders/bound/traversal.glsl, one ray at a time: the same nodes in the same order.
+// The algorithm of shaders/ray/traversal.glsl, one ray at a time: the same nodes in the same order.
 #include <algorithm>
 #include <array>
 #include <cassert>

@@ -8,7 +8,7 @@
 
 namespace licht {
 
-/// What shaders/bound/traversal.glsl reads, on the device: kBvhTexelsPerTriangle texels per position in the
+/// What shaders/ray/traversal.glsl reads, on the device: kBvhTexelsPerTriangle texels per position in the
 /// leaves' order, see triangleTexels().
 class GpuBvh {
 public:

@@ -64,7 +64,7 @@ double RayTracer::traceRange(const RayRange& range) {
     return secondsSince(start);
 }
 
-// Rays whose walk is cut write nothing.
+// Rays whose traversal is truncated write nothing.
 void RayTracer::markAllTruncated() {
     commands_.begin();
     commands_.pass("mark", {{&hits_, gpu::Access::transfer_write}}, [&](VkCommandBuffer recording) {

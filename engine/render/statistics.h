@@ -16,8 +16,7 @@ struct RenderStatistics {
     std::uint64_t bounce_rays = 0;
     std::uint64_t shadow_rays = 0;
     std::uint64_t nonfinite_samples = 0;
-    /// Samples in which a driver that limits the loops of a shader ended a BVH traversal early: they may have
-    /// missed a surface.
+    /// That a driver which limits the loops of a shader ended early: they may have missed a surface.
     std::uint64_t truncated_traversals = 0;
     /// Directions to the environment that rejection drew, and how many it tried for them.
     std::uint64_t environment_samples = 0;

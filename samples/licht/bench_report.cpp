@@ -108,7 +108,8 @@ std::string benchText(const BenchReport& r) {
     }
     for (const BenchKind& k : r.kinds) {
         if (k.truncated_traversals > 0)
-            text += fmt::format("warning: the driver cut {} walks of {} rays short\n", k.truncated_traversals, k.kind);
+            text += fmt::format("warning: the driver truncated {} traversals of {} rays\n",
+                                k.truncated_traversals, k.kind);
         if (k.embree_leaks.value_or(0) > 0)
             text += fmt::format(
                 "{}: {} rays slipped through edges in Embree's default mode and not in its robust one\n",

@@ -86,11 +86,10 @@ void warnOfDoubts(const RenderReport& report) {
         fmt::print(stderr, "licht: warning: {} samples were no finite number and count as black\n",
                    statistics.nonfinite_samples);
     if (statistics.truncated_traversals > 0)
-        fmt::print(
-            stderr,
-            "licht: warning: in {} samples the driver ended the search for a hit early; surfaces may be "
-            "missing\n",
-            statistics.truncated_traversals);
+        fmt::print(stderr,
+                   "licht: warning: the driver ended {} searches for a hit early; surfaces may be "
+                   "missing\n",
+                   statistics.truncated_traversals);
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // The history: mean and variance of every pixel, all samples weighted alike.
-#include "bound/adaptive.glsl"
+#include "path/adaptive.glsl"
 #include "pure/running_mean.glsl"
 #include "shared/bindings.h"
 #include "shared/frame.h"

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // Extra layers from the primary hits: sums over the samples that hit a surface, which the host divides by their number, and the motion of this frame.
-#include "bound/gbuffer.glsl"
+#include "camera/gbuffer.glsl"
 #include "bound/surface.glsl"
 #include "shared/bindings.h"
 #include "shared/frame.h"

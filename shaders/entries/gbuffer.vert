@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 // Primary hits by rasterising: every vertex is pulled by its place in the triangle list, so that triangle and corner are known without any
 // optional feature, and the barycentrics are plain interpolated values.
-#include "bound/camera.glsl"
+#include "camera/camera.glsl"
 #include "bound/scene.glsl"
 #include "shared/frame.h"
 

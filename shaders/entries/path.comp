@@ -1,9 +1,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // One sample per pixel, by one kernel: from the G-buffer's hit along a whole path.
-#include "bound/adaptive.glsl"
-#include "bound/gbuffer.glsl"
-#include "bound/orders.glsl"
+#include "path/adaptive.glsl"
+#include "camera/gbuffer.glsl"
+#include "path/orders.glsl"
 #include "shared/constants.h"
 #include "shared/frame.h"
 #include "shared/index.h"

@@ -3,7 +3,7 @@
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_ballot : require
 // What the paths found, as a picture.
-#include "bound/wavefront.glsl"
+#include "path/wavefront.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 

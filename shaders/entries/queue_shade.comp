@@ -3,7 +3,7 @@
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_ballot : require
 // One vertex of every path that hit something: what it emits, and the two rays that leave it.
-#include "bound/wavefront.glsl"
+#include "path/wavefront.glsl"
 
 layout(local_size_x = 64) in;
 

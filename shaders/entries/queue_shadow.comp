@@ -3,7 +3,7 @@
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_ballot : require
 // Light that is not blocked is added to the path that asked for it.
-#include "bound/wavefront.glsl"
+#include "path/wavefront.glsl"
 
 layout(local_size_x = 64) in;
 
@@ -27,6 +27,6 @@ void endTask(bool ends, RayTask task) {
     addRadiance(task.path, arrivingLight(task.shadow.ray.address.pixel, push.bounce + 1u, task.shadow));
 }
 
-#include "bound/ray_list.glsl"
+#include "ray/list.glsl"
 
 void main() { countTruncated(traceList(queueCount(push.bounce, kCountShadows))); }

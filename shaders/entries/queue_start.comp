@@ -3,7 +3,7 @@
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_ballot : require
 // A path a pixel, from the G-buffer's hit.
-#include "bound/wavefront.glsl"
+#include "path/wavefront.glsl"
 #include "shared/index.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;

@@ -3,7 +3,7 @@
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_ballot : require
 // Where the paths go on: those that hit something are queued for their next vertex, the others end in the sky.
-#include "bound/wavefront.glsl"
+#include "path/wavefront.glsl"
 #include "shared/index.h"
 
 layout(local_size_x = 64) in;
@@ -36,6 +36,6 @@ void endTask(bool ends, RayTask task) {
     if (hits) queue_hits[place] = task.path;
 }
 
-#include "bound/ray_list.glsl"
+#include "ray/list.glsl"
 
 void main() { countTruncated(traceList(queueCount(push.bounce, kCountRays))); }

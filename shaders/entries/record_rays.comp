@@ -1,8 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // Follows one path a pixel as path.comp does and writes down the rays that it traces, for measuring them alone.
-#include "bound/gbuffer.glsl"
-#include "bound/path.glsl"
+#include "camera/gbuffer.glsl"
+#include "path/path.glsl"
 #include "shared/bindings.h"
 #include "shared/dimensions.h"
 #include "shared/frame.h"

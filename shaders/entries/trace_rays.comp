@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // Traces a list of rays and writes what they hit: a ray a thread.
-#include "bound/listed_rays.glsl"
+#include "ray/listed.glsl"
 
 layout(local_size_x = 64) in;
 

@@ -3,10 +3,10 @@
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_ballot : require
 // Traces a list of rays and writes what they hit: lanes whose ray has ended take the next one.
-#include "bound/listed_rays.glsl"
+#include "ray/listed.glsl"
 
 layout(local_size_x = 64) in;
 
-#include "bound/ray_list.glsl"
+#include "ray/list.glsl"
 
 void main() { traceList(range.count); }

@@ -2,7 +2,7 @@
 #ifndef LICHT_LIGHT_SAMPLE_GLSL
 #define LICHT_LIGHT_SAMPLE_GLSL
 
-#include "bound/visibility.glsl"
+#include "ray/visibility.glsl"
 #include "shared/index.h"
 
 struct LightSample {

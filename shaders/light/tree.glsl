@@ -80,7 +80,8 @@ struct LightNode {
 LightNode lightNodeAt(uint node, ShadingPoint at) {
     uint first = kLightChildren * node;
     LightChildRecord a = lightChildAt(first), b = lightChildAt(first + 1u), c = lightChildAt(first + 2u), d = lightChildAt(first + 3u);
-    return LightNode(vec4(lightImportance(a, at), lightImportance(b, at), lightImportance(c, at), lightImportance(d, at)), uvec4(a.next, b.next, c.next, d.next));
+    return LightNode(vec4(lightImportance(a, at), lightImportance(b, at), lightImportance(c, at), lightImportance(d, at)),
+                     uvec4(a.next, b.next, c.next, d.next));
 }
 
 TreePick pickInTree(ShadingPoint at, vec2 u) {

@@ -12,7 +12,7 @@ struct WavefrontPush {
     uint bounce;
 };
 
-// Records are whole texels, because they are read as such; path_state.glsl packs and unpacks them.
+// Records are whole texels, because they are read as such; path/state.glsl packs and unpacks them.
 // Of a path:
 LICHT_CONSTANT uint kPathHit = 0u;                     // the next vertex
 LICHT_CONSTANT uint kPathWay = kPathHit + 1u;          // wo; scatter_pdf

@@ -47,15 +47,15 @@ public:
         return device_ ? device_->triangles() : triangles_;
     }
 
-    /// Nearest hits; on the device also demands that no walk was cut.
-    Hits nearest(const std::vector<Ray>& rays) { return trace(rays, 0); }
+    /// Nearest hits; on the device also demands that no traversal was truncated.
+    Hits nearest(const std::vector<Ray>& rays) { return trace(rays, 0.0F); }
     /// Some hit of each ray; the host has no walk of its own for that.
-    Hits any(const std::vector<Ray>& rays) { return trace(rays, 1); }
+    Hits any(const std::vector<Ray>& rays) { return trace(rays, kInfinity); }
 
 private:
-    Hits trace(const std::vector<Ray>& rays, std::uint32_t any_hit) {
+    Hits trace(const std::vector<Ray>& rays, float t_enough) {
         if (device_) {
-            Hits hits = device_->trace(rays, {0, any_hit, 0, 0});
+            Hits hits = device_->trace(rays, {0, t_enough, 0, 0});
             EXPECT_EQ(device_->truncated(), 0);
             return hits;
         }

@@ -1,8 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // Traces each pixel's primary ray again through what the rasteriser saw, and says how far the two are apart.
-#include "bound/gbuffer.glsl"
-#include "bound/visibility.glsl"
+#include "camera/gbuffer.glsl"
+#include "ray/visibility.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(push_constant) uniform Push { SamplePush push; };

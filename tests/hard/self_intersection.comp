@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // Rays that leave a hit the way paths do. One thread per ray.
-#include "bound/visibility.glsl"
+#include "ray/visibility.glsl"
 
 layout(local_size_x = 64) in;
 layout(push_constant) uniform Push { uint ray_count; } push;

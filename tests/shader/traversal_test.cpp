@@ -38,7 +38,7 @@ std::vector<Ray> randomRays(int count, float half, std::uint32_t seed) {
 /// Returns how many rays hit.
 int expectSameHits(Tracer& tracer, const std::vector<Ray>& rays) {
     const auto found = tracer.trace(rays);
-    const auto any = tracer.trace(rays, {0, 1, 0, 0});
+    const auto any = tracer.trace(rays, {0, kInfinity, 0, 0});
     EXPECT_EQ(tracer.truncated(), 0);
     int hits = 0;
     for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -76,6 +76,32 @@ INSTANTIATE_TEST_SUITE_P(Forms, Traversal,
 TEST_P(Traversal, FindsWhatTestingEveryTriangleFinds) {
     Tracer tracer = tracerOf(soup(1'000, 0.2F, 1));
     EXPECT_GT(expectSameHits(tracer, randomRays(4'000, 1.5F, 2)), 1'000);
+}
+
+// A hit nearer than is enough ends the traversal, whatever is nearer still; behind that the nearest is
+// wanted.
+TEST_P(Traversal, AHitThatIsNearEnoughEndsIt) {
+    constexpr float kEnough = 0.7F;
+    const std::vector<BvhTriangle> triangles = soup(1'000, 0.3F, 1);
+    const std::vector<Ray> rays = randomRays(4'000, 1.5F, 2);
+    Tracer tracer = tracerOf(triangles);
+    const auto found = tracer.trace(rays, {0, kEnough, 0, 0});
+    int behind = 0;
+    int passed_over = 0;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        const auto nearest = intersectBruteForce(triangles, rays[i]);
+        ASSERT_EQ(found[i].has_value(), nearest.has_value()) << i;
+        if (!nearest) continue;
+        if (nearest->t >= kEnough) {
+            ASSERT_EQ(found[i]->triangle, nearest->triangle) << i;
+            ++behind;
+        } else {
+            ASSERT_LT(found[i]->t, kEnough) << i;
+            passed_over += found[i]->triangle != nearest->triangle ? 1 : 0;
+        }
+    }
+    EXPECT_GT(behind, 100);
+    EXPECT_GT(passed_over, 10);
 }
 
 TEST_P(Traversal, SliversSeenEdgeOnAndDuplicatesOnAGrazedFloor) {

@@ -3,12 +3,12 @@ layout(local_size_x = 64) in;
 
 layout(push_constant) uniform Push {
     uint ray_count;
-    uint any_hit;
+    float t_enough;
     uint refused;  // acceptHit refuses positions that this divides; 0: none
     uint stride;   // not 0: ray i accepts position i * stride alone
 } push;
 
-#include "bound/traversal.glsl"
+#include "ray/traversal.glsl"
 
 layout(binding = kFirstFreeBinding, std430) readonly buffer rays { vec4 ray_data[]; };   // origin, t_min; direction, t_max
 layout(binding = kFirstFreeBinding + 1u, std430) writeonly buffer hits { vec4 hit_data[]; };  // position as bits, t, b1, b2; left alone where truncated
@@ -27,7 +27,7 @@ bool acceptHit(RayQuery ray, uint instance, uint position, float t) {
 
 RayTask takeTask(uint i) {
     vec4 o = ray_data[2u * i], d = ray_data[2u * i + 1u];
-    RayQuery query = RayQuery(o.xyz, d.xyz, o.w, d.w, push.any_hit != 0u ? infinity() : 0.0, kNoIndex, i);
+    RayQuery query = RayQuery(o.xyz, d.xyz, o.w, d.w, push.t_enough, kNoIndex, i);
     return RayTask(query, i, kNoTraceHit);
 }
 

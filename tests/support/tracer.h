@@ -1,5 +1,5 @@
 #pragma once
-// Rays on the device: the traversal of shaders/bound/traversal.glsl over a list of triangles.
+// Rays on the device: the traversal of shaders/ray/traversal.glsl over a list of triangles.
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -13,9 +13,9 @@ namespace licht::test {
 /// How a list of rays is traced.
 struct TraceQuery {
     std::uint32_t ray_count = 0;  ///< filled in by Tracer
-    std::uint32_t any_hit = 0;
-    std::uint32_t refused = 0;  ///< positions in the leaves' order that this divides are no hits; 0: none
-    std::uint32_t stride = 0;   ///< not 0: ray i accepts position i * stride alone
+    float t_enough = 0.0F;        ///< see RayQuery: 0 the nearest hit, infinity any
+    std::uint32_t refused = 0;    ///< positions in the leaves' order that this divides are no hits; 0: none
+    std::uint32_t stride = 0;     ///< not 0: ray i accepts position i * stride alone
 };
 
 /// How rays share the device's lanes.

@@ -5,7 +5,7 @@
 #extension GL_KHR_shader_subgroup_ballot : require
 #include "tracer.glsl"
 
-#include "bound/ray_list.glsl"
+#include "ray/list.glsl"
 
 layout(binding = kFirstFreeBinding + 2u, std430) buffer truncated { uint truncated_traversals; };
 

@@ -1,8 +1,8 @@
 // One sample of a pixel, and what is counted beside it.
-#ifndef LICHT_BOUND_SAMPLE_STORE_GLSL
-#define LICHT_BOUND_SAMPLE_STORE_GLSL
-#include "bound/adaptive.glsl"
-#include "bound/path.glsl"
+#ifndef LICHT_PATH_STORE_GLSL
+#define LICHT_PATH_STORE_GLSL
+#include "path/adaptive.glsl"
+#include "path/path.glsl"
 #include "pure/finite.glsl"
 #include "shared/bindings.h"
 #include "shared/choices.h"

@@ -1,7 +1,7 @@
 // The estimator: L = sum over i of T^i Le along one random path.
 // Kajiya 1986, The Rendering Equation; Veach 1997, Robust Monte Carlo Methods for Light Transport Simulation.
-#ifndef LICHT_BOUND_PATH_GLSL
-#define LICHT_BOUND_PATH_GLSL
+#ifndef LICHT_PATH_PATH_GLSL
+#define LICHT_PATH_PATH_GLSL
 
 #include "light/light.glsl"
 #include "shared/choices.h"
@@ -63,8 +63,8 @@ Path beginPath(SampleAddress address, Hit hit, vec3 wo) {
 }
 
 // Light that would arrive straight from a sampled light and scatter towards wo, one order of T applied to Le, with the ray that asks whether it does.
-// One sample of the lights: several at what the camera sees, and several candidates of which one is kept (Talbot 2005), were both tried where there are 200 lamps: less
-// noise a sample by 1.3 to 1.6, for as much more time.
+// One sample of the lights: several at what the camera sees, and several candidates of which one is kept (Talbot, Cline, Egbert 2005, Importance Resampling
+// for Global Illumination), take as much more time as they take noise away, where there are many lamps.
 ShadowRay directLight(Surface s, PackedShadingPoint at, vec3 wo_local, uint dimension, Path p, inout PathCounts counts) {
     LightSample light = sampleLight(vertexOn(s), at, p.address, dimension);
     countTries(light, counts);
@@ -75,9 +75,9 @@ ShadowRay directLight(Surface s, PackedShadingPoint at, vec3 wo_local, uint dime
     LobeValue scattered = evaluateBsdf(s.bsdf, wo_local, wi_local);
     if (largest(scattered.f) <= 0.0) return kNoShadowRay;
     float weight = weightOfLightSample(light, scattered.pdf);
+    vec3 arriving = scattered.f * light.radiance * (wi_local.z * weight / light.pdf);
     RayQuery query = shadowQuery(offsetOrigin(vertexOn(s), wi), light.direction, light.t_max, light.t_enough);
-    return ShadowRay(sceneRay(query, p.address, kRayToLight + kRaysPerBounce * p.bounce), light.target,
-                     scattered.f * light.radiance * (wi_local.z * weight / light.pdf), true);
+    return ShadowRay(sceneRay(query, p.address, kRayToLight + kRaysPerBounce * p.bounce), light.target, arriving, true);
 }
 
 // The including shader defines what else happens to light that a path found, and to the rays that looked for light of an order: nothing, or a note.

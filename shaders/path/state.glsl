@@ -1,9 +1,9 @@
 // Paths and their rays as they wait between the kernels of the wavefront: for each record what packs it and what unpacks it. Written as storage, read as
 // texels.
-#ifndef LICHT_BOUND_PATH_STATE_GLSL
-#define LICHT_BOUND_PATH_STATE_GLSL
-#include "bound/path.glsl"
-#include "bound/sample_store.glsl"
+#ifndef LICHT_PATH_STATE_GLSL
+#define LICHT_PATH_STATE_GLSL
+#include "path/path.glsl"
+#include "path/store.glsl"
 #include "shared/bindings.h"
 #include "shared/choices.h"
 #include "shared/path.h"
@@ -44,6 +44,7 @@ Path unpackPath(uint path, uint frame_index) {
         uvec4 gloss = pathTexel(path, kPathGloss);
         p.from.wo = gloss.x;
         p.from.gloss = gloss.y;
+        p.medium = gloss.z;
     }
     return p;
 }

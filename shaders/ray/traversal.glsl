@@ -1,7 +1,7 @@
 // Follows a ray through the wide tree of shared/bvh_layout.h. The twin of engine/bvh/traverse.cpp.
 // A ray goes in as a value and what it met comes out as one; only the stack is kept outside of both.
-#ifndef LICHT_BOUND_TRAVERSAL_GLSL
-#define LICHT_BOUND_TRAVERSAL_GLSL
+#ifndef LICHT_RAY_TRAVERSAL_GLSL
+#define LICHT_RAY_TRAVERSAL_GLSL
 #include "bound/instance_effect.glsl"
 #include "pure/finite.glsl"
 #include "pure/intersect.glsl"
@@ -15,7 +15,7 @@
 layout(constant_id = kConstantBvhInStorage) const bool kBvhInStorage = false;
 // Bvh::max_stack: no traversal of that tree holds more entries.
 layout(constant_id = kConstantBvhStackSize) const uint kBvhStackSize = 64u;
-// kConstantRaysPerThread; more than one: lanes are refilled (ray_list.glsl), as suits devices that run them in lockstep.
+// kConstantRaysPerThread; more than one: lanes are refilled (list.glsl), as suits devices that run them in lockstep.
 layout(constant_id = kConstantRaysPerThread) const uint kRaysPerThread = 1u;
 const bool kRefilled = kRaysPerThread > 1u;
 

@@ -1,9 +1,9 @@
 // Where light came from: sums over samples of every order T^i Le, and of what the clamp took. Tiles of the picture's size stand side by side in one
 // image; a pixel is written by the one path that is followed for it.
-#ifndef LICHT_BOUND_ORDERS_GLSL
-#define LICHT_BOUND_ORDERS_GLSL
-#include "bound/path.glsl"
-#include "bound/sample_store.glsl"
+#ifndef LICHT_PATH_ORDERS_GLSL
+#define LICHT_PATH_ORDERS_GLSL
+#include "path/path.glsl"
+#include "path/store.glsl"
 #include "shared/bindings.h"
 #include "shared/constants.h"
 #include "shared/frame.h"

@@ -1,6 +1,6 @@
 // The camera, both ways: from a point on the picture to a ray, and from the world to the picture.
-#ifndef LICHT_BOUND_CAMERA_GLSL
-#define LICHT_BOUND_CAMERA_GLSL
+#ifndef LICHT_CAMERA_CAMERA_GLSL
+#define LICHT_CAMERA_CAMERA_GLSL
 
 #include "pure/sobol.glsl"
 #include "shared/dimensions.h"

@@ -1,9 +1,9 @@
 // Rays through the scene, and whether two points see each other.
-#ifndef LICHT_BOUND_VISIBILITY_GLSL
-#define LICHT_BOUND_VISIBILITY_GLSL
+#ifndef LICHT_RAY_VISIBILITY_GLSL
+#define LICHT_RAY_VISIBILITY_GLSL
 
 #include "bound/surface.glsl"
-#include "bound/traversal.glsl"
+#include "ray/traversal.glsl"
 #include "shared/geometry.h"
 #include "shared/index.h"
 

@@ -1,8 +1,8 @@
 // The G-buffer as the passes behind it read it.
-#ifndef LICHT_BOUND_GBUFFER_GLSL
-#define LICHT_BOUND_GBUFFER_GLSL
+#ifndef LICHT_CAMERA_GBUFFER_GLSL
+#define LICHT_CAMERA_GBUFFER_GLSL
 
-#include "bound/camera.glsl"
+#include "camera/camera.glsl"
 #include "bound/scene.glsl"
 #include "shared/bindings.h"
 #include "shared/index.h"

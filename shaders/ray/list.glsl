@@ -1,14 +1,14 @@
 // Traces the rays of a list. Where lanes run in lockstep, those whose ray has ended would wait for the longest of their subgroup: there a subgroup owns a
 // share of the list, and its lanes take the next ray of it as soon as theirs has ended (after Aila, Laine 2009, Understanding the Efficiency of Ray
 // Traversal on GPUs). Elsewhere a thread traces one ray.
-// The including shader has subgroup ballots, includes bound/traversal.glsl before and defines
+// The including shader has subgroup ballots, includes ray/traversal.glsl before and defines
 //     struct RayTask                                         a ray of the list, and what it is traced for
 //     RayTask takeTask(uint i)
 //     RayQuery queryOf(RayTask task)
 //     bool passesThrough(inout RayTask task, TraceHit found) notes what it hit; true: it goes on behind that, by its new query
 //     void endTask(bool ends, RayTask task)                  called by all threads of a subgroup together
-#ifndef LICHT_BOUND_RAY_LIST_GLSL
-#define LICHT_BOUND_RAY_LIST_GLSL
+#ifndef LICHT_RAY_LIST_GLSL
+#define LICHT_RAY_LIST_GLSL
 
 // Of eight lanes, when new rays are set up: sooner, setting up is paid for too often; later, too many lanes wait (tests/bench/MEASURED.md, rays).
 const uint kIdleOfEight = 3u;

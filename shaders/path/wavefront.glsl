@@ -1,10 +1,10 @@
 // The wavefront: the same estimator as path.comp, cut where rays are traced, with queues between its kernels, so that only what is alive is worked on
 // (Laine, Karras, Aila 2013, Megakernels Considered Harmful: Wavefront Path Tracing on GPUs).
-#ifndef LICHT_BOUND_WAVEFRONT_GLSL
-#define LICHT_BOUND_WAVEFRONT_GLSL
-#include "bound/gbuffer.glsl"
-#include "bound/orders.glsl"
-#include "bound/path_state.glsl"
+#ifndef LICHT_PATH_WAVEFRONT_GLSL
+#define LICHT_PATH_WAVEFRONT_GLSL
+#include "camera/gbuffer.glsl"
+#include "path/orders.glsl"
+#include "path/state.glsl"
 #include "shared/bindings.h"
 #include "shared/path.h"
 

@@ -1,6 +1,6 @@
 // Which pixels a frame samples, and which of their samples it draws: all of them and the frame's own, unless tiles are sampled as their noise calls for.
-#ifndef LICHT_BOUND_ADAPTIVE_GLSL
-#define LICHT_BOUND_ADAPTIVE_GLSL
+#ifndef LICHT_PATH_ADAPTIVE_GLSL
+#define LICHT_PATH_ADAPTIVE_GLSL
 #include "shared/bindings.h"
 #include "shared/constants.h"
 #include "shared/frame.h"

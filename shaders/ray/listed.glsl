@@ -1,6 +1,6 @@
 // A list of rays to be traced and what each hits, as ray_tracer.cpp binds them.
-#ifndef LICHT_BOUND_LISTED_RAYS_GLSL
-#define LICHT_BOUND_LISTED_RAYS_GLSL
+#ifndef LICHT_RAY_LISTED_GLSL
+#define LICHT_RAY_LISTED_GLSL
 #include "shared/bindings.h"
 #include "shared/constants.h"
 #include "shared/index.h"
@@ -12,7 +12,7 @@ layout(std430, binding = kBindingRayRange) readonly buffer Range { RayRange rang
 layout(binding = kBindingRayTexels) uniform samplerBuffer ray_texels;  // RayRecord: two texels a ray
 layout(std430, binding = kBindingRayHits) writeonly buffer RayHits { RayHitRecord ray_hits[]; };  // kRayTruncated stays where nothing is written
 
-#include "bound/traversal.glsl"
+#include "ray/traversal.glsl"
 
 bool acceptHit(RayQuery ray, uint instance, uint position, float t) { return true; }
 
