@@ -71,14 +71,28 @@ TEST(Orders, OfAFurnaceAreAGeometricSeriesFreeOfNoise) {
     }
 }
 
-// Tiles stand in rows and columns: 4096 pixels fit a device's images at most eight times side by side.
+// Tiles stand in rows and columns: 4096 pixels fit a device's images at most eight times side by side. A few
+// paths leave the room along its edges (Furnace.EveryBounceCount...) and bring no more: 1.2e-5 of the rays
+// that start evenly spread over the walls, and these begin on a line.
 TEST(Orders, OfAWidePictureStandInSeveralRows) {
     const Scene scene = furnace(0.5F);
     Camera camera = scene.cameras[0];
     camera.y_fov = 1e-3F;
     const Film film = renderFilm(scene, camera, withOrders(uvec2(4096, 3), 9), 1);
-    for (std::uint32_t i = 0; i <= 9; ++i)
-        expectEverywhere(film.orders[i], std::pow(0.5, i + 1.0), 1e-6, "order " + std::to_string(i));
+    ASSERT_EQ(film.orders.size(), 10U);
+    const std::size_t pixels = std::size_t{4096} * 3;
+    int left = 0;
+    for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
+        bool inside = true;
+        for (std::size_t i = 0; i <= 9; ++i) {
+            const auto value = static_cast<double>(film.orders[i].texels[3 * pixel]);
+            inside = inside && (i == 0 || value > 0.0);
+            const double exact = inside ? std::pow(0.5, static_cast<double>(i) + 1.0) : 0.0;
+            ASSERT_NEAR(value, exact, 1e-6 * exact) << "order " << i << ", pixel " << pixel;
+        }
+        if (!inside) ++left;
+    }
+    EXPECT_LE(left, poissonQuantile(10.0 * 1.2e-5 * 9.0 * static_cast<double>(pixels), 1e-9));
 }
 
 // At most eight samples are summed in fp32 before they are taken over in double precision, and a sample adds

@@ -67,6 +67,18 @@ void expectMean(const Film& film, double exact) {
     }
 }
 
+double poissonQuantile(double mean, double beyond) {
+    double count = 0.0;
+    double term = std::exp(-mean);
+    double below = term;
+    while (1.0 - below > beyond) {
+        count += 1.0;
+        term *= mean / count;
+        below += term;
+    }
+    return count;
+}
+
 Camera downCamera(const vec3& centre, float half, float height) {
     Camera camera;
     camera.kind = Camera::Kind::orthographic;

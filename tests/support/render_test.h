@@ -27,6 +27,9 @@ PictureMean pictureMean(const Film& film, int channel);
 /// fp32 sums.
 void expectMean(const Film& film, double exact);
 
+/// Least count that a Poisson variable of this mean exceeds with at most the chance `beyond`.
+double poissonQuantile(double mean, double beyond);
+
 /// Looks straight down on the square [-half, half]^2 around `centre` (XZ), from `height` metres above it.
 /// Exactly the square fills a square picture.
 Camera downCamera(const vec3& centre, float half, float height);
