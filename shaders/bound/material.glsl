@@ -13,9 +13,32 @@ layout(constant_id = kConstantTextureSlotKinds) const uint kTextureSlotKinds = 0
 
 bool hasTexture(MaterialRecord m, uint kind) { return kTextures && (kTextureSlotKinds & (1u << kind)) != 0u && hasSlot(m, kind); }
 
-// Filtered value of a slot of that kind (kSlot...); white where it is empty.
-vec4 sampleSlot(MaterialRecord m, uint kind, uvec3 v, vec3 weights) {
-    return hasTexture(m, kind) ? sampleTexture(slotAt(m, kind), v, weights) : vec4(1.0);
+// Filtered values of slots, by kind (kSlot...); white where a slot is empty or was not asked for.
+struct Texels {
+    vec4 of[kSlotCount];
+};
+
+const uint kEverySlot = (1u << kSlotCount) - 1u;
+const uint kEmissionSlots = 1u << kSlotEmissive | 1u << kSlotClearcoat | 1u << kSlotClearcoatRoughness | 1u << kSlotClearcoatNormal;
+
+// By selects: an array that is indexed by a variable lies in memory.
+#define LICHT_EMPTY_SLOT(number, name, srgb, words, extension, key) texels.of[number] = vec4(1.0);
+#define LICHT_KEEP_TEXEL(number, name, srgb, words, extension, key) \
+    if ((kTextureSlotKinds & (1u << number)) != 0u && kind == number) texels.of[number] = texel;
+
+// kinds: bits 1 << kSlot... One loop over the slots that are there, so that the code of a texture is there once: drivers work through all of it before they
+// see which slots a scene lacks, and those that run lanes in lockstep take as many rounds as the lane with the most slots.
+Texels sampleSlots(MaterialRecord m, uint kinds, uvec3 v, vec3 weights) {
+    Texels texels;
+    LICHT_TEXTURE_SLOTS(LICHT_EMPTY_SLOT)
+    if (kTextures) {
+        for (uint left = kinds & kTextureSlotKinds & m.slots; left != 0u; left &= left - 1u) {
+            uint kind = uint(findLSB(left));
+            vec4 texel = sampleTexture(slotAt(m, kind), v, weights);
+            LICHT_TEXTURE_SLOTS(LICHT_KEEP_TEXEL)
+        }
+    }
+    return texels;
 }
 
 IridescenceRecord iridescenceOf(MaterialRecord m) {
@@ -23,8 +46,8 @@ IridescenceRecord iridescenceOf(MaterialRecord m) {
     return IridescenceRecord(a.x, a.y, a.z, a.w);
 }
 
-vec4 baseColorAt(MaterialRecord m, uvec3 v, vec3 weights) {
-    vec4 c = m.base_color * sampleSlot(m, kSlotBaseColor, v, weights);
+vec4 baseColorOf(MaterialRecord m, uvec3 v, vec3 weights, Texels texels) {
+    vec4 c = m.base_color * texels.of[kSlotBaseColor];
     return kVertexColors ? c * vertexColorAt(v, weights) : c;
 }
 
@@ -33,7 +56,8 @@ bool passesAlphaTest(uint instance, uint primitive, float b1, float b2, float u)
     MaterialRecord m = materialAt(instanceAt(instance).material);
     if ((m.flags & (kMaterialAlphaMask | kMaterialAlphaBlend)) == 0u) return true;
     uvec3 v = triangleVertices(instance, primitive);
-    float alpha = baseColorAt(m, v, vec3(1.0 - b1 - b2, b1, b2)).a;
+    vec3 weights = vec3(1.0 - b1 - b2, b1, b2);
+    float alpha = baseColorOf(m, v, weights, sampleSlots(m, 1u << kSlotBaseColor, v, weights)).a;
     return (m.flags & kMaterialAlphaMask) != 0u ? alpha >= m.alpha_cutoff : u < alpha;
 }
 
@@ -65,9 +89,9 @@ vec3 mappedNormal(vec3 k, float scale, Spot p) {
 }
 
 // The normal by what the map in that slot has there, unit, world, on the side of wo; bent back into view where interpolation or the map turns it away from wo.
-vec3 shadingNormal(MaterialRecord m, uint kind, vec4 texel, float scale, Spot p) {
+vec3 shadingNormal(MaterialRecord m, uint kind, Texels texels, float scale, Spot p) {
     vec3 n = p.normal;
-    if (kNormalMaps && p.tangents && hasTexture(m, kind)) n = mappedNormal(texel.xyz * 2.0 - 1.0, scale, p);
+    if (kNormalMaps && p.tangents && hasTexture(m, kind)) n = mappedNormal(texels.of[kind].xyz * 2.0 - 1.0, scale, p);
     n = p.front ? n : -n;
     // Keeps wo inside the hemisphere by more than the rounding of the frame. Normalising lengthens n by up to half its square, 5e-7 of it, which is given
     // back beforehand, and more.
@@ -77,47 +101,32 @@ vec3 shadingNormal(MaterialRecord m, uint kind, vec4 texel, float scale, Spot p)
 }
 
 // Its normal in the world: the base's normal map has no part in it.
-Clearcoat clearcoatOf(MaterialRecord m, Spot p) {
+Clearcoat clearcoatOf(MaterialRecord m, Texels texels, Spot p) {
     if (!kClearcoat || !hasBlock(m, kBlockClearcoat)) return kNoClearcoat;
     vec4 a = blockAt(m, kBlockClearcoat);
     ClearcoatRecord c = ClearcoatRecord(a.x, a.y, a.z, a.w);
-    vec3 normal = p.normal;
-    // A loop, so that the code of a texture is there once and not three times: drivers work through all of it before they see that a scene has no clearcoat.
-    for (uint kind = kSlotClearcoat; kind <= kSlotClearcoatNormal; ++kind) {
-        vec4 texel = sampleSlot(m, kind, p.vertices, p.weights);
-        if (kind == kSlotClearcoat) c.factor *= texel.r;
-        if (kind == kSlotClearcoatRoughness) c.roughness *= texel.g;
-        if (kind == kSlotClearcoatNormal) normal = shadingNormal(m, kind, texel, c.normal_scale, p);
-    }
-    return Clearcoat(c.factor, alphaOf(c.roughness), normal);
+    float factor = c.factor * texels.of[kSlotClearcoat].r;
+    float roughness = c.roughness * texels.of[kSlotClearcoatRoughness].g;
+    return Clearcoat(factor, alphaOf(roughness), shadingNormal(m, kSlotClearcoatNormal, texels, c.normal_scale, p));
 }
 
 // Whether a surface may send different light from its points or in different directions.
 const bool kUnevenEmission = kTextures || kClearcoat;
 
 // Emitted towards wo, cd/m^2, as far as a clearcoat passes it. Single-sided surfaces emit from their front.
-vec3 emissionOf(MaterialRecord m, Spot p, Clearcoat coat) {
+vec3 emissionOf(MaterialRecord m, Texels texels, Spot p, Clearcoat coat) {
     if (!kEmission || !(p.front || (m.flags & kMaterialDoubleSided) != 0u)) return vec3(0.0);
-    vec3 emission = m.emission * sampleSlot(m, kSlotEmissive, p.vertices, p.weights).rgb;
+    vec3 emission = m.emission * texels.of[kSlotEmissive].rgb;
     return kClearcoat ? emission * (1.0 - albedoClearcoat(coat, p.wo)) : emission;
 }
 
 // frame: around the shading normal, in which the BSDF is local. base: the base colour. coat: in the world.
-Bsdf bsdfOf(MaterialRecord m, Spot p, Frame frame, vec3 base, Clearcoat coat) {
+Bsdf bsdfOf(MaterialRecord m, Texels texels, Frame frame, vec3 base, Clearcoat coat) {
     if (!kGlossy) return lambertBsdf(base);
-    uvec3 v = p.vertices;
-    vec3 weights = p.weights;
-    float metallic = m.metallic;
-    float roughness = m.roughness;
-    float specular = m.specular;
-    vec3 specular_color = m.specular_color;
-    if (kTextures) {
-        vec4 mr = sampleSlot(m, kSlotMetallicRoughness, v, weights);
-        metallic *= mr.b;
-        roughness *= mr.g;
-        specular *= sampleSlot(m, kSlotSpecular, v, weights).a;
-        specular_color *= sampleSlot(m, kSlotSpecularColor, v, weights).rgb;
-    }
+    float metallic = m.metallic * texels.of[kSlotMetallicRoughness].b;
+    float roughness = m.roughness * texels.of[kSlotMetallicRoughness].g;
+    float specular = m.specular * texels.of[kSlotSpecular].a;
+    vec3 specular_color = m.specular_color * texels.of[kSlotSpecularColor].rgb;
     vec3 dielectric_f0 = min(m.dielectric_f0 * specular_color, vec3(1.0)) * specular;
     Bsdf b = Bsdf(Diffuse(base * (1.0 - metallic)), plainSpecular(alphaOf(roughness), mix(dielectric_f0, base, metallic), mix(specular, 1.0, metallic),
                                                                   largest(dielectric_f0), specular),
@@ -126,8 +135,8 @@ Bsdf bsdfOf(MaterialRecord m, Spot p, Frame frame, vec3 base, Clearcoat coat) {
         IridescenceRecord iridescence = iridescenceOf(m);
         float thickness = iridescence.thickness_maximum;
         if (hasTexture(m, kSlotIridescenceThickness))
-            thickness = mix(iridescence.thickness_minimum, thickness, sampleSlot(m, kSlotIridescenceThickness, v, weights).g);
-        b.specular.thin_film = thinFilm(iridescence.factor * sampleSlot(m, kSlotIridescence, v, weights).r, iridescence.ior, thickness);
+            thickness = mix(iridescence.thickness_minimum, thickness, texels.of[kSlotIridescenceThickness].g);
+        b.specular.thin_film = thinFilm(iridescence.factor * texels.of[kSlotIridescence].r, iridescence.ior, thickness);
         b.specular.film_dielectric_f0 = dielectric_f0;
         b.specular.film_metal_f0 = base;
         b.specular.metallic = metallic;

@@ -73,7 +73,8 @@ vec3 emissionAt(uint instance_index, uint primitive, vec3 weights, vec3 face_nor
     uvec3 v = triangleVertices(instance_index, primitive);
     MaterialRecord m = materialAt(instance.material);
     Spot spot = spotAt(instance, v, weights, placementOf(instance_index), face_normal, front, wo);
-    return emissionOf(m, spot, clearcoatOf(m, spot));
+    Texels texels = sampleSlots(m, kEmissionSlots, v, weights);
+    return emissionOf(m, texels, spot, clearcoatOf(m, texels, spot));
 }
 
 // wo: unit, world, towards where the path came from.
@@ -92,15 +93,16 @@ Surface surfaceAt(Hit hit, vec3 wo) {
     s.face_normal = s.front ? face.normal : -face.normal;
     s.error_bound = face.error_bound;
 
+    Texels texels = sampleSlots(m, kEverySlot, v, weights);
     Spot spot = spotAt(instance, v, weights, at, face.normal, s.front, wo);
-    s.frame = frameFromNormal(shadingNormal(m, kSlotNormal, sampleSlot(m, kSlotNormal, v, weights), m.normal_scale, spot));
+    s.frame = frameFromNormal(shadingNormal(m, kSlotNormal, texels, m.normal_scale, spot));
 
-    vec4 base = baseColorAt(m, v, weights);
+    vec4 base = baseColorOf(m, v, weights, texels);
     bool unlit = kUnlit && (m.flags & kMaterialUnlit) != 0u;
     s.base_color = base.rgb;
-    Clearcoat coat = clearcoatOf(m, spot);
-    s.bsdf = bsdfOf(m, spot, s.frame, base.rgb, coat);
-    s.emission = emissionOf(m, spot, coat);
+    Clearcoat coat = clearcoatOf(m, texels, spot);
+    s.bsdf = bsdfOf(m, texels, s.frame, base.rgb, coat);
+    s.emission = emissionOf(m, texels, spot, coat);
     s.light = kNoIndex;
     if (kLightTriangles && instance.first_light != kNoIndex && largest(s.emission) > 0.0) s.light = instance.first_light + hit.primitive;
     if (unlit) {
