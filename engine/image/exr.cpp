@@ -60,6 +60,20 @@ ExrPicture describe(const Imf::Header& header, const std::filesystem::path& path
         refuse(path, fmt::format("its size of {}x{} is not within 1..{}", width, height, kMaxImageSide));
     picture.width = static_cast<int>(width);
     picture.height = static_cast<int>(height);
+    const Imath::Box2i& display = header.displayWindow();
+    const std::int64_t display_width = std::int64_t{display.max.x} - display.min.x + 1;
+    const std::int64_t display_height = std::int64_t{display.max.y} - display.min.y + 1;
+    if (display_width < 1 || display_height < 1 || display_width > kMaxImageSide ||
+        display_height > kMaxImageSide)
+        refuse(path, fmt::format("its display window of {}x{} is not within 1..{}", display_width,
+                                 display_height, kMaxImageSide));
+    picture.display = {std::int64_t{display.min.x} - window.min.x, std::int64_t{display.min.y} - window.min.y,
+                       static_cast<int>(display_width), static_cast<int>(display_height)};
+    if (Imf::hasChromaticities(header)) {
+        const Imf::Chromaticities& c = Imf::chromaticities(header);
+        const auto xy = [](const Imath::V2f& v) { return glm::dvec2(v.x, v.y); };
+        picture.primaries = {xy(c.red), xy(c.green), xy(c.blue), xy(c.white)};
+    }
     const Imf::ChannelList& channels = header.channels();
     for (auto i = channels.begin(); i != channels.end(); ++i) {
         if (i.channel().xSampling != 1 || i.channel().ySampling != 1)

@@ -1,9 +1,12 @@
 #pragma once
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "licht/colour/primaries.h"
 #include "licht/image/image.h"
 
 namespace licht {
@@ -15,12 +18,22 @@ struct ExrChannel {
     std::vector<float> values;
 };
 
+/// A part of the plane, in texels of a picture.
+struct PictureWindow {
+    std::int64_t x = 0;  ///< of its upper left texel
+    std::int64_t y = 0;
+    int width = 0;
+    int height = 0;
+};
+
 /// A flat single-part scanline EXR: float channels, and string attributes that say how it was made.
 struct ExrPicture {
     int width = 0;
     int height = 0;
     std::vector<ExrChannel> channels;
     std::vector<std::pair<std::string, std::string>> attributes;
+    PictureWindow display;               ///< what is to be shown, seen from the first texel that is stored
+    std::optional<Primaries> primaries;  ///< of red, green and blue, where the file says them
 
     /// The channel of that name, or nullptr.
     [[nodiscard]] const ExrChannel* find(const std::string& name) const;

@@ -13,10 +13,12 @@
 #include <cmath>
 #include <cstring>
 #include <memory>
+#include <string_view>
 
 #include "licht/core/error.h"
 #include "licht/core/file.h"
 #include "licht/image/exr.h"
+#include "licht/image/hdr_header.h"
 
 namespace licht {
 namespace {
@@ -126,18 +128,40 @@ bool isPngOrJpeg(std::span<const std::byte> bytes) {
     return startsWith(png) || startsWith(jpeg);
 }
 
+/// Nothing where the file does not say its primaries, or says what is read anyway.
+void convertToRec709(Image& map, const std::optional<Primaries>& primaries, const std::string& name) {
+    if (!primaries || areRec709(*primaries)) return;
+    const glm::dmat3 rec709_from_file = rec709FromPrimaries(*primaries);
+    for (int column = 0; column < 3; ++column)
+        for (int row = 0; row < 3; ++row)
+            if (!std::isfinite(rec709_from_file[column][row]))
+                refuse(name, "its primaries span no triangle of colours");
+    for (std::size_t i = 0; i < map.texels.size(); i += 3) {
+        const glm::dvec3 rgb =
+            rec709_from_file * glm::dvec3(map.texels[i], map.texels[i + 1], map.texels[i + 2]);
+        for (std::size_t c = 0; c < 3; ++c) map.texels[i + c] = static_cast<float>(rgb[static_cast<int>(c)]);
+    }
+}
+
 Image readHdr(const std::filesystem::path& path) {
     const std::vector<std::byte> bytes = readFile(path, INT_MAX);
     if (stbi_is_hdr_from_memory(stbBytes(bytes), static_cast<int>(bytes.size())) == 0)
         refuse(path.string(), "is no Radiance HDR file");
+    const HdrHeader header = readHdrHeader(bytes, path.string());
     const Size size = requireSaneSize(bytes, path.string());
     const auto texels = decode<float>(stbi_loadf_from_callbacks, bytes, path.string(), 3);
     Image map(size.width, size.height, 3);
     std::copy_n(texels.get(), map.texels.size(), map.texels.begin());
+    if (header.divisor != glm::dvec3(1.0))
+        for (std::size_t i = 0; i < map.texels.size(); ++i)
+            map.texels[i] = static_cast<float>(static_cast<double>(map.texels[i]) /
+                                               header.divisor[static_cast<int>(i % 3)]);
+    convertToRec709(map, header.primaries, path.string());
     return map;
 }
 
-/// R, G, B of an EXR file, or three times its Y.
+/// R, G, B of an EXR file, or three times its Y. The display window is the picture: what of it the file has
+/// no data for is black, and data beside it is no part of it.
 Image readExrMap(const std::filesystem::path& path) {
     const ExrPicture picture = readExr(path);
     std::array<const ExrChannel*, 3> planes = {picture.find("R"), picture.find("G"), picture.find("B")};
@@ -145,8 +169,24 @@ Image readExrMap(const std::filesystem::path& path) {
         planes.fill(grey);
     if (std::ranges::count(planes, nullptr) != 0)
         refuse(path.string(), "has no channels R, G, B and no channel Y");
-    Image map(picture.width, picture.height, 3);
-    for (std::size_t i = 0; i < map.texels.size(); ++i) map.texels[i] = planes[i % 3]->values[i / 3];
+    const PictureWindow& display = picture.display;
+    if (std::int64_t{display.width} * display.height > kMaxTexels)
+        refuse(path.string(), fmt::format("its display window of {}x{} is more than 2^28 texels",
+                                          display.width, display.height));
+    Image map(display.width, display.height, 3);
+    for (int y = 0; y < picture.height; ++y) {
+        for (int x = 0; x < picture.width; ++x) {
+            const std::int64_t to_x = std::int64_t{x} - display.x;
+            const std::int64_t to_y = std::int64_t{y} - display.y;
+            if (to_x < 0 || to_y < 0 || to_x >= display.width || to_y >= display.height) continue;
+            const auto i = static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +
+                           static_cast<std::size_t>(x);
+            for (int c = 0; c < 3; ++c)
+                map.at(static_cast<int>(to_x), static_cast<int>(to_y), c) =
+                    planes[static_cast<std::size_t>(c)]->values[i];
+        }
+    }
+    convertToRec709(map, picture.primaries, path.string());
     return map;
 }
 
@@ -177,6 +217,27 @@ std::uint8_t codeOf(float value) {
     return static_cast<std::uint8_t>(std::lround(std::min(value, 1.0F) * 255.0F));
 }
 
+/// Signature and IHDR.
+constexpr std::ptrdiff_t kPngHeaderBytes = 8 + 25;
+
+/// A chunk tEXt (PNG 1.2, 4.2.3), with its length and its CRC (annex D).
+constexpr auto kSoftwareChunk = [] {
+    constexpr std::string_view kText("tEXtSoftware\0Licht", 18);
+    std::array<std::byte, kText.size() + 8> chunk{};
+    const auto putWord = [&chunk](std::size_t at, std::uint32_t word) {
+        for (std::size_t i = 0; i < 4; ++i) chunk[at + i] = static_cast<std::byte>(word >> (24U - 8U * i));
+    };
+    std::uint32_t crc = 0xffffffffU;
+    for (std::size_t i = 0; i < kText.size(); ++i) {
+        chunk[4 + i] = static_cast<std::byte>(kText[i]);
+        crc ^= static_cast<std::uint32_t>(static_cast<unsigned char>(kText[i]));
+        for (int bit = 0; bit < 8; ++bit) crc = (crc & 1U) != 0U ? crc >> 1U ^ 0xedb88320U : crc >> 1U;
+    }
+    putWord(0, static_cast<std::uint32_t>(kText.size() - 4));
+    putWord(4 + kText.size(), ~crc);
+    return chunk;
+}();
+
 }  // namespace
 
 void writePng(const std::filesystem::path& path, const Image& picture) {
@@ -195,7 +256,18 @@ void writePng(const std::filesystem::path& path, const Image& picture) {
     if (stbi_write_png_to_func(append, &png, picture.width, picture.height, picture.channels, codes.data(),
                                picture.width * picture.channels) == 0)
         throw DeviceError(fmt::format("{}: encoding the PNG failed", path.string()));
+    png.insert(png.begin() + kPngHeaderBytes, kSoftwareChunk.begin(), kSoftwareChunk.end());
     writeFile(path, png);
+}
+
+bool isOwnPng(const std::filesystem::path& path) {
+    try {
+        const std::vector<std::byte> bytes = readFile(path);
+        return isPngOrJpeg(bytes) && bytes.size() >= kPngHeaderBytes + kSoftwareChunk.size() &&
+               std::equal(kSoftwareChunk.begin(), kSoftwareChunk.end(), bytes.begin() + kPngHeaderBytes);
+    } catch (const InputError&) {
+        return false;
+    }
 }
 
 Image readRadianceMap(const std::filesystem::path& path, std::size_t* replaced) {

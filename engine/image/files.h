@@ -15,6 +15,9 @@ namespace licht {
 /// complete or not at all.
 void writePng(const std::filesystem::path& path, const Image& picture);
 
+/// Whether a file is a PNG that writePng() wrote: it carries the text "Software: Licht".
+bool isOwnPng(const std::filesystem::path& path);
+
 /// A radiance map: .hdr (Radiance RGBE) or .exr, three channels of linear Rec. 709. Non-finite or negative
 /// values become 0; *replaced counts the texels that had one. Throws InputError naming file and reason.
 Image readRadianceMap(const std::filesystem::path& path, std::size_t* replaced = nullptr);

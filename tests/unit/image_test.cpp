@@ -401,6 +401,44 @@ TEST_F(HdrTest, RadianceIsRead) {
     EXPECT_EQ(map.texels, expected);
 }
 
+/// The same texels under other header lines.
+std::string radianceUnder(const std::string& lines, const std::string& resolution = "-Y 2 +X 2") {
+    const std::string whole = radiance();
+    const std::string format = lines.starts_with("FORMAT") ? "" : "FORMAT=32-bit_rle_rgbe\n";
+    return "#?RADIANCE\n" + format + lines + "\n" + resolution + "\n" + whole.substr(whole.size() - 16);
+}
+
+// Radiance is what is stored over all EXPOSURE and COLORCORR, which multiply.
+TEST_F(HdrTest, HeadersThatScaleAreObeyed) {
+    const auto first = [&](const std::string& lines) {
+        put(folder_ / "a.hdr", radianceUnder(lines));
+        const Image map = readRadianceMap(folder_ / "a.hdr");
+        return std::vector<float>(map.texels.begin(), map.texels.begin() + 3);
+    };
+    EXPECT_EQ(first("EXPOSURE=4\n# a remark = 3\nEXPOSURE= +0.5\r\n"),
+              (std::vector<float>{0.5F, 0.25F, 0.125F}));
+    EXPECT_EQ(first("COLORCORR=2 1 0.5\nEXPOSURE=2\n"), (std::vector<float>{0.25F, 0.25F, 0.25F}));
+    EXPECT_EQ(first("PRIMARIES=0.64 0.33 0.3 0.6 0.15 0.06 0.3127 0.329\n"),
+              (std::vector<float>{1.0F, 0.5F, 0.25F}));
+    // The white of other primaries stays white.
+    put(folder_ / "white.hdr", radianceUnder("PRIMARIES=0.708 0.292 0.17 0.797 0.131 0.046 0.3127 0.329\n"));
+    EXPECT_NEAR(readRadianceMap(folder_ / "white.hdr").texels[3], 1048576.0F, 1.0F);
+}
+
+TEST_F(HdrTest, HeadersThatAreNotUnderstoodAreRefusedWithTheReason) {
+    const auto refused = [&](const std::string& bytes, const std::string& why) {
+        put(folder_ / "a.hdr", bytes);
+        expectInputError([&] { readRadianceMap(folder_ / "a.hdr"); }, "a.hdr", why);
+    };
+    refused(radianceUnder("EXPOSURE=0\n"), "EXPOSURE is no positive number");
+    refused(radianceUnder("EXPOSURE=bright\n"), "EXPOSURE is no positive number");
+    refused(radianceUnder("COLORCORR=1 -1 1\n"), "COLORCORR is no positive number");
+    refused(radianceUnder("PRIMARIES=1 2 3\n"), "PRIMARIES are not eight numbers");
+    refused(radianceUnder("PRIMARIES=0 0 0 0 0 0 0 0\n"), "primaries span no triangle");
+    refused(radianceUnder("FORMAT=32-bit_rle_xyze\n"), "its numbers are XYZ");
+    refused(radianceUnder("FORMAT=32-bit_rle_rgbe\n", "+Y 2 +X 2"), "'+Y 2 +X 2'");
+}
+
 TEST_F(HdrTest, TruncatedRadianceIsRefused) {
     const std::string whole = radiance();
     for (std::size_t length = 0; length < whole.size(); ++length) {
@@ -462,6 +500,55 @@ TEST_F(HdrTest, ExrMapIsColourOrGrey) {
     EXPECT_EQ(readRadianceMap(folder_ / "grey.exr").texels, expected);
     writeExr(folder_ / "partial.exr", small({{"R", {1.0F, 2.0F}}, {"Y", {1.0F, 2.0F}}}));
     expectInputError([&] { readRadianceMap(folder_ / "partial.exr"); }, "partial.exr", "no channels R, G, B");
+}
+
+/// Overwrites the value of an attribute that is there. type: as the file names it.
+std::string withAttribute(std::string bytes, const std::string& name, const std::string& type,
+                          const void* value, std::size_t size) {
+    const std::size_t at = bytes.find(name + '\0' + type + '\0');
+    EXPECT_NE(at, std::string::npos);
+    std::memcpy(bytes.data() + at + name.size() + type.size() + 2 + 4, value, size);
+    return bytes;
+}
+
+// The display window is the picture.
+TEST_F(HdrTest, ExrMapIsPlacedInItsDisplayWindow) {
+    ExrPicture picture = small({{"Y", {1.0F, 2.0F, 3.0F, 4.0F}}});
+    picture.width = 2;
+    picture.height = 2;
+    writeExr(folder_ / "a.exr", picture);
+    const std::string good = get(folder_ / "a.exr");
+    const auto greyOf = [&](const std::array<std::int32_t, 4>& window) {
+        put(folder_ / "b.exr", withAttribute(good, "displayWindow", "box2i", window.data(), sizeof(window)));
+        const Image map = readRadianceMap(folder_ / "b.exr");
+        std::vector<float> grey{static_cast<float>(map.width)};
+        for (std::size_t i = 0; i < map.texels.size(); i += 3) grey.push_back(map.texels[i]);
+        return grey;
+    };
+    EXPECT_EQ(greyOf({0, 0, 1, 1}), (std::vector<float>{2, 1, 2, 3, 4}));
+    EXPECT_EQ(greyOf({-1, 0, 1, 2}), (std::vector<float>{3, 0, 1, 2, 0, 3, 4, 0, 0, 0}));
+    EXPECT_EQ(greyOf({1, 1, 1, 1}), (std::vector<float>{1, 4}));
+    EXPECT_EQ(greyOf({5, 5, 5, 5}), (std::vector<float>{1, 0}));
+    const std::array<std::int32_t, 4> empty{1, 1, 0, 0};
+    put(folder_ / "b.exr", withAttribute(good, "displayWindow", "box2i", empty.data(), sizeof(empty)));
+    expectInputError([&] { readRadianceMap(folder_ / "b.exr"); }, "b.exr", "");
+}
+
+// Rec. 2020 to Rec. 709: the matrix of ITU-R BT.2087.
+TEST_F(HdrTest, ExrMapIsConvertedFromItsPrimaries) {
+    writeExr(folder_ / "a.exr", small({{"R", {0.6F, 1.0F}}, {"G", {0.3F, 1.0F}}, {"B", {0.3F, 1.0F}}}));
+    const std::array<float, 8> rec2020{0.708F, 0.292F, 0.17F, 0.797F, 0.131F, 0.046F, 0.3127F, 0.329F};
+    put(folder_ / "b.exr", withAttribute(get(folder_ / "a.exr"), "chromaticities", "chromaticities",
+                                         rec2020.data(), sizeof(rec2020)));
+    const Image map = readRadianceMap(folder_ / "b.exr");
+    const glm::dvec3 exact(0.6 * 1.6605 - 0.3 * 0.5876 - 0.3 * 0.0728,
+                           -0.6 * 0.1246 + 0.3 * 1.1329 - 0.3 * 0.0083,
+                           -0.6 * 0.0182 - 0.3 * 0.1006 + 0.3 * 1.1187);
+    for (int c = 0; c < 3; ++c) {
+        // Four digits in each of three terms.
+        EXPECT_NEAR(map.texels[static_cast<std::size_t>(c)], exact[c], 3 * 0.6 * 0.5e-4 + 1e-6);
+        EXPECT_NEAR(map.texels[static_cast<std::size_t>(3 + c)], 1.0F, 1e-6F);
+    }
 }
 
 }  // namespace
