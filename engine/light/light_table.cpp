@@ -163,9 +163,9 @@ LightBound boundOfSpot(const SpotLight& light, bool spot) {
         bound.normals_angle = std::numbers::pi;
         bound.emission_angle = 0.5 * std::numbers::pi;
     } else {
-        // The cone ends where scale * cos + offset = 0.
-        bound.emission_angle = std::acos(
-            std::clamp(-static_cast<double>(light.offset) / static_cast<double>(light.scale), -1.0, 1.0));
+        // The cone ends where 1 - cos = offset / scale.
+        const double versine = static_cast<double>(light.offset) / static_cast<double>(light.scale);
+        bound.emission_angle = 2.0 * std::asin(std::sqrt(std::clamp(0.5 * versine, 0.0, 1.0)));
     }
     return bound;
 }
@@ -210,12 +210,17 @@ LightRecord spotRecord(const PunctualLight& light) {
     LightRecord record{};
     const bool spot = light.kind == PunctualLight::Kind::spot;
     record.kind = spot ? kLightSpot : kLightPoint;
-    // KHR_lights_punctual's reference falloff; the smallest width protects the division where both cones
-    // are equal.
-    const float outer = std::cos(light.outer_cone);
-    const float scale = spot ? 1.0F / std::max(0.001F, std::cos(light.inner_cone) - outer) : 0.0F;
-    return packSpot(record,
-                    {light.position, light.range, light.intensity, light.direction, scale, -outer * scale});
+    // KHR_lights_punctual's reference falloff, (cos - cos outer) / (cos inner - cos outer), whatever the
+    // width. An edge without width is as wide as rounding: 1e-6 of 1 - cos outer.
+    const auto versine = [](float angle) {
+        const double s = std::sin(0.5 * static_cast<double>(angle));
+        return 2.0 * s * s;
+    };
+    const double outer = versine(light.outer_cone);
+    const double width = std::max({outer - versine(light.inner_cone), 1e-6 * outer, 1e-30});
+    const auto scale = spot ? static_cast<float>(1.0 / width) : 0.0F;
+    const auto offset = spot ? static_cast<float>(outer / width) : 0.0F;
+    return packSpot(record, {light.position, light.range, light.intensity, light.direction, scale, offset});
 }
 
 // No length of its own, so that a scene's scale changes no pick. Where there is nothing to light any will do.

@@ -46,10 +46,8 @@ void addVertices(FlatGeometry& out, const Mesh& mesh, const mat4& transform, con
         VertexRecord v{};
         v.position = vec3(transform * vec4(mesh.positions[i], 1.0F));
         if (!mesh.normals.empty()) v.normal = normalizeOrZero(to_world.cofactors * mesh.normals[i]);
-        if (!mesh.uv_sets.empty()) {
-            v.u = mesh.uv_sets[0][i].x;
-            v.v = mesh.uv_sets[0][i].y;
-        }
+        v.u = mesh.uv(0, i).x;
+        v.v = mesh.uv(0, i).y;
         out.vertices.push_back(v);
         if (effects.has(kEffectNormalMaps)) {
             vec4 t(0.0F);
@@ -62,7 +60,7 @@ void addVertices(FlatGeometry& out, const Mesh& mesh, const mat4& transform, con
         if (effects.has(kEffectVertexColors))
             out.colors.push_back(mesh.colors.empty() ? vec4(1.0F) : mesh.colors[i]);
         for (uint set = 1; set <= out.extra_uv_sets; ++set)
-            out.extra_uvs.push_back(set < mesh.uv_sets.size() ? mesh.uv_sets[set][i] : vec2(0.0F));
+            out.extra_uvs.push_back(mesh.uv(set, i));
     }
 }
 

@@ -1,6 +1,7 @@
 #include "licht/render/view.h"
 
 #include <cmath>
+#include <limits>
 
 namespace licht {
 
@@ -17,6 +18,7 @@ ViewRecord makeView(const Camera& camera, uvec2 size, const Bounds& bounds) {
     view.z_near = camera.z_near;
     const float reach = bounds.empty() ? 1.0F : glm::length(bounds.centre() - view.eye) + bounds.radius();
     view.z_far = std::max(2.0F * reach, 2.0F * camera.z_near + 1.0F);
+    view.z_limit = camera.z_far > 0.0F ? camera.z_far : std::numeric_limits<float>::infinity();
     view.size = size;
     return view;
 }

@@ -85,11 +85,20 @@ constexpr std::array<Influence, kSlotCount> kInfluence = [] {
 }();
 static_assert(std::find(kInfluence.begin(), kInfluence.end(), nullptr) == kInfluence.end());
 
-/// How much of a surface an emissive texture lights: the mean of its emission over the maximum. 1 without a
-/// texture, 0 for a black one.
-double litShare(const Scene& scene, const Material& m) {
+/// What a material emits, by all three channels: where it is brightest, and on average.
+struct Emission {
+    double brightest = 0.0;
+    double mean = 0.0;
+};
+
+Emission emissionOf(const Scene& scene, const Material& m) {
+    if (!emits(m)) {
+        return {};
+    }
     if (!m.slots[kSlotEmissive].present()) {
-        return 1.0;
+        const double sum = static_cast<double>(m.emission.x) + static_cast<double>(m.emission.y) +
+                           static_cast<double>(m.emission.z);
+        return {sum, sum};
     }
     std::array<double, 256> linear{};
     for (std::size_t i = 0; i < linear.size(); ++i) {
@@ -98,8 +107,7 @@ double litShare(const Scene& scene, const Material& m) {
     const Texture& texture = scene.textures[m.slots[kSlotEmissive].texture];
     const std::size_t channel_bytes = texture.bits / 8;
     const std::size_t texels = std::size_t{texture.width} * texture.height;
-    double sum = 0.0;
-    double most = 0.0;
+    Emission emission;
     for (std::size_t i = 0; i < texels; ++i) {
         double light = 0.0;
         for (std::size_t c = 0; c < 3; ++c) {
@@ -107,10 +115,18 @@ double litShare(const Scene& scene, const Material& m) {
             const std::uint8_t high = texture.bytes[(4 * i + c) * channel_bytes + channel_bytes - 1];
             light += linear.at(high) * static_cast<double>(m.emission[static_cast<int>(c)]);
         }
-        sum += light;
-        most = std::max(most, light);
+        emission.mean += light / static_cast<double>(texels);
+        emission.brightest = std::max(emission.brightest, light);
     }
-    return most > 0.0 ? sum / most / static_cast<double>(texels) : 0.0;
+    return emission;
+}
+
+std::vector<Emission> emissionsOf(const Scene& scene) {
+    std::vector<Emission> emissions;
+    for (const Material& m : scene.materials) {
+        emissions.push_back(emissionOf(scene, m));
+    }
+    return emissions;
 }
 
 /// World-space area in m^2.
@@ -133,6 +149,7 @@ double area(const Scene& scene, const Instance& instance) {
 struct LookedAt {
     const Scene& scene;
     std::vector<const Mesh*> meshes;  ///< with triangles and in use, each once
+    std::vector<Emission> emissions;  ///< by material
     const Effects& above;             ///< rows before this one are decided
 };
 
@@ -207,25 +224,28 @@ std::string glossOf(const LookedAt& at) {
     });
 }
 
+std::string emissionEvidence(const LookedAt& at) {
+    return ofFirstMesh(at, [&](const Mesh& mesh, const Material& m) {
+        return at.emissions[mesh.material].brightest > 0.0 ? fmt::format("material '{}' emits", m.name)
+                                                           : std::string();
+    });
+}
+
 /// Where most of the surface shines, scattered rays find the light by themselves and without noise (a closed
 /// furnace has none at all); sampling its triangles too would only add noise. So they are sampled while they
 /// are less than half of the area, where a textured surface counts by its lit share.
 std::string lightTrianglesOf(const LookedAt& at) {
     if (!at.above.has(kEffectEmission)) return {};
-    std::map<const Material*, double> lit_shares;
     double all = 0.0;
     double emitting = 0.0;
     std::string first;
     for (const Instance& instance : at.scene.instances) {
         const Mesh& mesh = at.scene.meshes[instance.mesh];
-        const Material& m = materialOf(at, mesh);
         const double a = area(at.scene, instance);
         all += a;
-        if (!emits(m) || a <= 0.0) continue;
-        const auto [share, added] = lit_shares.try_emplace(&m, 0.0);
-        if (added) share->second = litShare(at.scene, m);
-        if (share->second <= 0.0) continue;
-        emitting += a * share->second;
+        const Emission& emission = at.emissions[mesh.material];
+        if (emission.brightest <= 0.0 || a <= 0.0) continue;
+        emitting += a * emission.mean / emission.brightest;
         first = first.empty() ? mesh.name : first;
     }
     if (emitting <= 0.0 || emitting >= 0.5 * all) return {};
@@ -280,8 +300,7 @@ constexpr std::array<EffectInfo, kEffectCount> kEffectTable{{
      extraUvSetsOf},
     {kEffectAlpha, "alpha", "surfaces with holes or partial coverage", alphaOf},
     {kEffectGlossy, "glossy", "microfacet reflection", glossOf},
-    {kEffectEmission, "emission", "surfaces that emit light",
-     [](const LookedAt& at) { return ofFirstMaterial(at, emits, "emits"); }},
+    {kEffectEmission, "emission", "surfaces that emit light", emissionEvidence},
     {kEffectLightTriangles, "lightTriangles", "emissive triangles are sampled as lights", lightTrianglesOf},
     {kEffectPunctualLights, "punctualLights", "point, spot and directional lights", punctualLightsOf},
     {kEffectEnvironment, "environment", "light from infinitely far", environmentOf},
@@ -330,7 +349,7 @@ void Effects::addTo(std::map<std::uint32_t, std::uint32_t>& constants) const {
 
 Effects detectEffects(const Scene& scene) {
     Effects effects;
-    LookedAt at{scene, {}, effects};
+    LookedAt at{scene, {}, emissionsOf(scene), effects};
     std::set<std::uint32_t> seen;
     for (const Instance& instance : scene.instances)
         if (seen.insert(instance.mesh).second && !scene.meshes[instance.mesh].triangles.empty())
@@ -349,10 +368,24 @@ Effects allEffects() {
     return effects;
 }
 
+float brightestEmission(const Scene& scene) {
+    const std::vector<Emission> emissions = emissionsOf(scene);
+    double brightest = 0.0;
+    for (const Instance& instance : scene.instances) {
+        const Mesh& mesh = scene.meshes[instance.mesh];
+        if (!mesh.triangles.empty()) brightest = std::max(brightest, emissions[mesh.material].brightest);
+    }
+    return static_cast<float>(brightest / 3.0);
+}
+
 bool isDark(const Scene& scene) {
     const Effects effects = detectEffects(scene);
-    return !effects.has(kEffectEmission) && !effects.has(kEffectPunctualLights) &&
-           !effects.has(kEffectEnvironment) && !effects.has(kEffectUnlit);
+    const bool all_unlit =
+        !scene.instances.empty() && std::ranges::all_of(scene.instances, [&](const Instance& instance) {
+            return scene.materials[scene.meshes[instance.mesh].material].unlit;
+        });
+    return !all_unlit && !effects.has(kEffectPunctualLights) && !effects.has(kEffectEnvironment) &&
+           brightestEmission(scene) < kDimmestEmission;
 }
 
 }  // namespace licht

@@ -141,7 +141,10 @@ private:
             return kNone;
         }
         if (source.skin != -1 && !geometry->joints.empty()) {
-            applySkin(asset_, *geometry, jointTransforms(source.skin, name), name);
+            // Winding follows the node's transform, even where its skin alone places the mesh (3.7.4).
+            const glm::dmat3 linear(tree_.world_from_node[static_cast<std::size_t>(node)]);
+            applySkin(asset_, *geometry, jointTransforms(source.skin, name), glm::determinant(linear) < 0.0,
+                      name);
         }
         removeUnplaceable(asset_, geometry->mesh, name);
         geometry->mesh.material = materials_.load(primitive.material, name);
@@ -186,11 +189,26 @@ private:
 }  // namespace
 }  // namespace gltf
 
+namespace {
+
+std::vector<std::filesystem::path> filesOf(const gltf::Asset& asset, const std::filesystem::path& path) {
+    std::vector<std::filesystem::path> files{path};
+    const auto add = [&](const std::string& uri) {
+        if (auto file = asset.folder.find(uri)) files.push_back(std::move(*file));
+    };
+    for (const std::string& uri : asset.buffer_uris) add(uri);
+    for (const gltf::ImageSource& image : asset.images) add(image.uri);
+    return files;
+}
+
+}  // namespace
+
 Scene loadGltf(const std::filesystem::path& path, std::optional<std::uint32_t> scene_index) {
     gltf::Asset asset = gltf::readAsset(path);
     gltf::NodeTree tree = gltf::flattenNodes(asset, scene_index);
     Scene scene = gltf::SceneBuilder(asset, std::move(tree)).build();
     scene.name = path.stem().string();
+    scene.files = filesOf(asset, path);
     return scene;
 }
 

@@ -109,6 +109,7 @@ void readBuffers(const Json& document, const Container& container, Asset& asset)
         std::vector<std::byte> bytes;
         if (const std::string uri = stringOf(buffer, "uri"); !uri.empty()) {
             bytes = asset.folder.read(uri, object);
+            asset.buffer_uris.push_back(uri);
         } else if (index == 0 && container.binary) {
             bytes.assign(container.binary->begin(), container.binary->end());
         } else if (isMeshoptFallback(buffer)) {
@@ -144,6 +145,14 @@ void readImages(const Json& document, Asset& asset) {
     }
 }
 
+template <typename... Lists>
+void cleanNames(Lists&... lists) {
+    const auto clean = [](auto& list) {
+        for (auto& element : list) element.name = licht::oneLine(element.name);
+    };
+    (clean(lists), ...);
+}
+
 void parseModel(Json& document, Asset& asset) {
     document.erase("buffers");
     document.erase("images");
@@ -169,6 +178,9 @@ void parseModel(Json& document, Asset& asset) {
     if (!parsed) {
         throw InputError(fmt::format("{}: no valid glTF: {}", asset.file, oneLine(errors)));
     }
+    tinygltf::Model& m = asset.model;
+    cleanNames(m.accessors, m.animations, m.bufferViews, m.cameras, m.lights, m.materials, m.meshes, m.nodes,
+               m.scenes, m.skins, m.textures);
     std::istringstream lines(errors);
     for (std::string line; std::getline(lines, line);) {
         // tinygltf asks for a property that the specification leaves optional.
@@ -208,7 +220,7 @@ std::span<const std::byte> viewBytes(const Asset& asset, int view, std::string_v
 
 Asset readAsset(const std::filesystem::path& path) {
     const std::vector<std::byte> bytes = readFile(path);
-    Asset asset{path.string(), AssetFolder(path), {}, {}, {}, {}, {}};
+    Asset asset{path.string(), AssetFolder(path), {}, {}, {}, {}, {}, {}};
     const Container container = splitContainer(bytes, asset.file);
     Json document = parseJson(container.json, asset.file);
     checkVersion(document, asset.file);

@@ -32,6 +32,7 @@ struct Asset {
     AssetFolder folder;
     tinygltf::Model model;
     std::vector<std::vector<std::byte>> buffers;
+    std::vector<std::string> buffer_uris;
     std::vector<ImageSource> images;
     std::vector<SceneNote> notes;
     std::set<std::string> noted;

@@ -170,7 +170,10 @@ void readAttributes(Asset& asset, const AttributeReader& attributes, const std::
     Mesh& mesh = geometry.mesh;
     const std::size_t count = mesh.positions.size();
     mesh.normals = attributes.read("NORMAL", count, readVec3);
-    mesh.tangents = attributes.read("TANGENT", count, readVec4);
+    // Without normals the faces are flat, and tangents MUST be ignored (glTF 2.0, 3.7.2.1).
+    if (!mesh.normals.empty()) {
+        mesh.tangents = attributes.read("TANGENT", count, readVec4);
+    }
     mesh.colors = attributes.read("COLOR_0", count, readColors);
     clampColors(asset, mesh.colors, object);
     for (int set = 0; set < kMaxUvSets; ++set) {
@@ -223,8 +226,13 @@ std::optional<Geometry> readGeometry(Asset& asset, const tinygltf::Primitive& pr
 }
 
 void applySkin(const Asset& asset, Geometry& geometry, const std::vector<glm::dmat4>& world_from_bind,
-               const std::string& object) {
+               bool mirrored, const std::string& object) {
     Mesh& mesh = geometry.mesh;
+    if (mirrored) {
+        for (uvec3& triangle : mesh.triangles) {
+            std::swap(triangle.y, triangle.z);
+        }
+    }
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
         glm::dmat4 blend(0.0);
         double sum = 0.0;

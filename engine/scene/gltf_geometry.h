@@ -21,9 +21,10 @@ std::optional<Geometry> readGeometry(Asset& asset, const tinygltf::Primitive& pr
                                      const std::vector<double>& morph_weights, const std::string& object);
 
 /// Moves the vertices to where the joints hold them: linear blend skinning. `world_from_bind` is one matrix
-/// per joint. Throws InputError when a vertex names a joint that is not there.
+/// per joint; mirrored: by the node's own transform, which turns the winding. Throws InputError when a vertex
+/// names a joint that is not there.
 void applySkin(const Asset& asset, Geometry& geometry, const std::vector<glm::dmat4>& world_from_bind,
-               const std::string& object);
+               bool mirrored, const std::string& object);
 
 /// Removes triangles with a vertex that is no place (not finite, or too far out), with one warning that
 /// counts them.

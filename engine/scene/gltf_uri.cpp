@@ -67,14 +67,6 @@ std::string percentDecode(std::string_view text) {
     return decoded;
 }
 
-std::string oneLine(std::string_view text, std::size_t limit) {
-    std::string line(text.substr(0, limit));
-    std::replace_if(
-        line.begin(), line.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20U; }, ' ');
-    line.erase(line.find_last_not_of(' ') + 1);
-    return text.size() > limit ? line + "..." : line;
-}
-
 AssetFolder::AssetFolder(const std::filesystem::path& scene_file) : file_(scene_file.string()) {
     std::error_code error;
     const std::filesystem::path parent = scene_file.parent_path();
@@ -122,6 +114,15 @@ std::vector<std::byte> AssetFolder::readData(std::string_view uri) const {
     std::transform(decoded.begin(), decoded.end(), bytes.begin(),
                    [](unsigned char c) { return std::byte{c}; });
     return bytes;
+}
+
+std::optional<std::filesystem::path> AssetFolder::find(std::string_view uri) const {
+    if (uri.starts_with("data:")) return std::nullopt;
+    try {
+        return resolve(uri);
+    } catch (const std::exception&) {
+        return std::nullopt;
+    }
 }
 
 std::filesystem::path AssetFolder::resolve(std::string_view uri) const {

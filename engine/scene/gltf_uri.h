@@ -3,10 +3,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "licht/core/one_line.h"
 
 namespace licht::gltf {
 
@@ -24,6 +27,9 @@ public:
     /// What all files and data URIs of one asset may weigh together.
     static constexpr std::uint64_t kMaxAssetBytes = std::uint64_t{4} << 30U;
 
+    /// The file that a URI names; nullopt where read() would find none. Reads nothing.
+    [[nodiscard]] std::optional<std::filesystem::path> find(std::string_view uri) const;
+
 private:
     std::vector<std::byte> readData(std::string_view uri) const;
     [[nodiscard]] std::filesystem::path resolve(std::string_view uri) const;
@@ -36,8 +42,9 @@ private:
 /// RFC 3986 percent-decoding. Throws std::invalid_argument on a '%' without two hexadecimal digits.
 std::string percentDecode(std::string_view text);
 
-/// At most `limit` bytes of a text, on one line: control characters become spaces, and what is cut is marked
-/// by "...".
-std::string oneLine(std::string_view text, std::size_t limit = 200);
+/// licht::oneLine(), short enough for a message.
+inline std::string oneLine(std::string_view text, std::size_t limit = 200) {
+    return licht::oneLine(text, limit);
+}
 
 }  // namespace licht::gltf

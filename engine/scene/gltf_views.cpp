@@ -69,6 +69,7 @@ std::optional<Camera> readCamera(Asset& asset, int node, const dmat4& world_from
     }
     Camera camera;
     camera.name = !source.name.empty() ? source.name : !carrier.name.empty() ? carrier.name : name;
+    camera.node = carrier.name;
     camera.world_from_view = *frame;
     if (source.type == "orthographic") {
         const double half_height = std::abs(source.orthographic.ymag);
@@ -89,6 +90,14 @@ std::optional<Camera> readCamera(Asset& asset, int node, const dmat4& world_from
             asset.skip(fmt::format("{}: its vertical angle {} lies outside of (0, pi)", name,
                                    source.perspective.yfov));
             return std::nullopt;
+        }
+    }
+    const double z_far = source.type == "orthographic" ? source.orthographic.zfar : source.perspective.zfar;
+    if (z_far > 0.0) {
+        camera.z_far = std::max(0.0F, finiteOr(z_far, 0.0F));
+        if (camera.z_far <= camera.z_near) {
+            asset.warn(fmt::format("{}: its zfar is not behind its znear and taken as none", name));
+            camera.z_far = 0.0F;
         }
     }
     return camera;

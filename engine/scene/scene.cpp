@@ -39,7 +39,7 @@ constexpr float kFramingFill = 0.9F;    // share of the half picture that the bo
 constexpr float kNearShare = 1e-3F;     // of the distance to the centre
 constexpr float kEmptyDistance = 3.0F;  // metres, where nothing tells a size
 constexpr float kResolvedShare =
-    1e-4F;  // of the coordinates: nearer, an eye and what it sees round to the same point
+    1e-5F;  // of the coordinates: nearer, an eye and what it sees round to the same point
 const vec3 kTowardsEye{0.45F, 0.35F, 1};  // front, a bit to the right and above
 
 /// Distance from the centre at which all corners of the box are inside the picture's fill, and the nearest

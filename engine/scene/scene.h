@@ -7,6 +7,7 @@
 // linear Rec. 709.
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -73,9 +74,9 @@ struct Material {
     ClearcoatRecord clearcoat{0.0F, 0.0F, 1.0F, 0.0F};
     std::array<TextureSlot, kSlotCount> slots{};  ///< by kSlot...
 
-    /// The same light from every point and in every direction.
+    /// The same light from every point and in every direction, and whole.
     [[nodiscard]] bool emitsEvenly() const {
-        return !slots[kSlotEmissive].present() && clearcoat.factor == 0.0F;
+        return !slots[kSlotEmissive].present() && clearcoat.factor == 0.0F && alpha_mode == AlphaMode::opaque;
     }
     /// The normal map along whose coordinates tangents are derived; null where none bends a normal.
     [[nodiscard]] const TextureSlot* normalMap() const {
@@ -95,6 +96,11 @@ struct Mesh {
     std::vector<std::vector<vec2>> uv_sets;  ///< TEXCOORD_0..n
     std::vector<uvec3> triangles;
     std::uint32_t material = 0;
+
+    /// Of a vertex; 0 where the mesh has no such set.
+    [[nodiscard]] vec2 uv(std::size_t set, std::size_t vertex) const {
+        return set < uv_sets.size() && !uv_sets[set].empty() ? uv_sets[set][vertex] : vec2(0.0F);
+    }
 };
 
 /// A mesh placed in the world.
@@ -113,7 +119,9 @@ struct Camera {
     float y_fov = 0.8F;     ///< perspective: whole vertical angle, radians
     float y_extent = 1.0F;  ///< orthographic: half height (glTF's ymag)
     float aspect = 0.0F;    ///< width / height; 0: the picture's
-    float z_near = 0.01F;   ///< nothing nearer is seen by the camera; there is no far plane
+    float z_near = 0.01F;   ///< metres along its axis; nothing nearer is seen by the camera
+    float z_far = 0.0F;     ///< the same; nothing farther is seen; 0: there is no far plane
+    std::string node{};     ///< name of what carries it, by which several of one name are told apart
 };
 
 /// KHR_lights_punctual. Directional: color * intensity is illuminance in lux; point and spot: luminous
@@ -163,7 +171,8 @@ struct Scene {
     std::vector<PunctualLight> lights;
     std::optional<Environment> environment;
     std::vector<SceneNote> notes;
-    double default_exposure = 0.0;  ///< EV the scene's author suggests
+    std::vector<std::filesystem::path> files;  ///< all that it names, itself included; empty: built in
+    double default_exposure = 0.0;             ///< EV the scene's author suggests
 };
 
 /// World bounds of all instances; empty when there is no geometry.
@@ -173,8 +182,14 @@ Bounds sceneBounds(const Scene& scene);
 /// Deterministic.
 Camera framingCamera(const Bounds& bounds, float aspect);
 
-/// True where nothing in the scene can give light: no emission, no punctual light, no environment, nothing
-/// unlit.
+/// What emits less (cd/m^2, mean of RGB) everywhere lights nothing that a neutral sky of 1 would not drown.
+inline constexpr float kDimmestEmission = 1e-4F;
+
+/// Largest radiance that a surface sends (cd/m^2, mean of RGB); a texture counts by its brightest texel.
+float brightestEmission(const Scene& scene);
+
+/// True where nothing in the scene gives light to what wants it: no surface emits (a black texture emits
+/// nothing), no punctual light, no environment, and not everything is unlit.
 bool isDark(const Scene& scene);
 
 /// A constant sky of that radiance (cd/m^2).

@@ -110,6 +110,8 @@ void validateViews(const Scene& scene) {
                 "its vertical angle lies outside (0, pi)");
         require(c.kind != Camera::Kind::orthographic || (c.y_extent > 0.0F && finite(c.y_extent)), "camera",
                 i, c.name, "its half height is not positive");
+        require(c.z_far == 0.0F || (c.z_far > c.z_near && finite(c.z_far)), "camera", i, c.name,
+                "its far plane is not behind its near plane");
         require(c.z_near >= 0.0F && finite(c.z_near) && c.aspect >= 0.0F && finite(c.aspect), "camera", i,
                 c.name, "its near plane or aspect ratio is negative or not finite");
     }

@@ -19,7 +19,8 @@ struct Texels {
 };
 
 const uint kEverySlot = (1u << kSlotCount) - 1u;
-const uint kEmissionSlots = 1u << kSlotEmissive | 1u << kSlotClearcoat | 1u << kSlotClearcoatRoughness | 1u << kSlotClearcoatNormal;
+const uint kEmissionSlots = (kAlpha ? 1u << kSlotBaseColor : 0u) | 1u << kSlotEmissive | 1u << kSlotClearcoat | 1u << kSlotClearcoatRoughness |
+                            1u << kSlotClearcoatNormal;
 
 // By selects: an array that is indexed by a variable lies in memory.
 #define LICHT_EMPTY_SLOT(number, name, srgb, words, extension, key) texels.of[number] = vec4(1.0);
@@ -51,14 +52,20 @@ vec4 baseColorOf(MaterialRecord m, uvec3 v, vec3 weights, Texels texels) {
     return kVertexColors ? c * vertexColorAt(v, weights) : c;
 }
 
-// Coverage: a masked or blended surface is there or not, for this ray, as one number decides.
+// Share of rays that meet the surface where the base colour has that alpha.
+float coverageOf(MaterialRecord m, float alpha) {
+    if ((m.flags & kMaterialAlphaMask) != 0u) return alpha >= m.alpha_cutoff ? 1.0 : 0.0;
+    return (m.flags & kMaterialAlphaBlend) != 0u ? alpha : 1.0;
+}
+
+// A masked or blended surface is there or not, for this ray, as one number of [0,1) decides.
 bool passesAlphaTest(uint instance, uint primitive, float b1, float b2, float u) {
     MaterialRecord m = materialAt(instanceAt(instance).material);
     if ((m.flags & (kMaterialAlphaMask | kMaterialAlphaBlend)) == 0u) return true;
     uvec3 v = triangleVertices(instance, primitive);
     vec3 weights = vec3(1.0 - b1 - b2, b1, b2);
     float alpha = baseColorOf(m, v, weights, sampleSlots(m, 1u << kSlotBaseColor, v, weights)).a;
-    return (m.flags & kMaterialAlphaMask) != 0u ? alpha >= m.alpha_cutoff : u < alpha;
+    return u < coverageOf(m, alpha);
 }
 
 // Where a material is asked what it emits and scatters.
@@ -76,8 +83,8 @@ struct Spot {
 vec3 mappedNormal(vec3 k, float scale, Spot p) {
     uvec3 v = p.vertices;
     vec3 n = p.normal;
-    vec4 t = p.weights.x * worldTangent(p.placement, tangents[v.x]) + p.weights.y * worldTangent(p.placement, tangents[v.y]) +
-             p.weights.z * worldTangent(p.placement, tangents[v.z]);
+    vec4 t = interpolate(p.weights, worldTangent(p.placement, tangents[v.x]), worldTangent(p.placement, tangents[v.y]),
+                         worldTangent(p.placement, tangents[v.z]));
     vec3 tangent = t.xyz - dot(t.xyz, n) * n;
     float length2 = dot(tangent, tangent);
     if (!(length2 > 0.0)) return n;
@@ -111,7 +118,7 @@ Clearcoat clearcoatOf(MaterialRecord m, Texels texels, Spot p) {
 }
 
 // Whether a surface may send different light from its points or in different directions.
-const bool kUnevenEmission = kTextures || kClearcoat;
+const bool kUnevenEmission = kTextures || kClearcoat || kAlpha;
 
 // Emitted towards wo, cd/m^2, as far as a clearcoat passes it. Single-sided surfaces emit from their front.
 vec3 emissionOf(MaterialRecord m, Texels texels, Spot p, Clearcoat coat) {

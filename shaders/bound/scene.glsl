@@ -4,6 +4,7 @@
 
 #include "bound/instances.glsl"
 #include "bound/scene_data.glsl"
+#include "pure/interpolate.glsl"
 #include "shared/effects.h"
 #include "shared/bindings.h"
 #include "shared/frame.h"
@@ -48,15 +49,15 @@ vec2 uvAt(uvec3 v, vec3 weights, uint set) {
     if (kExtraUvSets && set > 0u) {
         if (set > frame.extra_uv_sets) return vec2(0.0);
         uvec3 at = v * frame.extra_uv_sets + (set - 1u);
-        return weights.x * extra_uvs[at.x] + weights.y * extra_uvs[at.y] + weights.z * extra_uvs[at.z];
+        return interpolate(weights, extra_uvs[at.x], extra_uvs[at.y], extra_uvs[at.z]);
     }
-    return weights.x * vec2(vertexAt(v.x).u, vertexAt(v.x).v) + weights.y * vec2(vertexAt(v.y).u, vertexAt(v.y).v) +
-           weights.z * vec2(vertexAt(v.z).u, vertexAt(v.z).v);
+    VertexRecord a = vertexAt(v.x), b = vertexAt(v.y), c = vertexAt(v.z);
+    return interpolate(weights, vec2(a.u, a.v), vec2(b.u, b.v), vec2(c.u, c.v));
 }
 
 vec4 vertexColorAt(uvec3 v, vec3 weights) {
     if (!kVertexColors) return vec4(1.0);
-    return weights.x * colors[v.x] + weights.y * colors[v.y] + weights.z * colors[v.z];
+    return interpolate(weights, colors[v.x], colors[v.y], colors[v.z]);
 }
 
 #endif

@@ -18,6 +18,7 @@ struct Surface {
     Bsdf bsdf;
     vec3 base_color;
     vec3 emission;       // towards wo, cd/m^2
+    bool unlit;          // shows its colour to the camera and gives no light
     uint light;          // in the light table; kNoIndex: found by scattering alone
 };
 
@@ -61,20 +62,21 @@ Face faceOf(Placement at, vec3 p0, vec3 p1, vec3 p2) {
 
 // face_normal: of the triangle's front.
 Spot spotAt(InstanceRecord instance, uvec3 v, vec3 weights, Placement at, vec3 face_normal, bool front, vec3 wo) {
-    vec3 n = weights.x * worldNormal(at, vertexAt(v.x).normal) + weights.y * worldNormal(at, vertexAt(v.y).normal) +
-             weights.z * worldNormal(at, vertexAt(v.z).normal);
+    vec3 n = interpolate(weights, worldNormal(at, vertexAt(v.x).normal), worldNormal(at, vertexAt(v.y).normal), worldNormal(at, vertexAt(v.z).normal));
     float n2 = dot(n, n);
     return Spot(v, weights, at, (instance.flags & kInstanceTangents) != 0u, front, n2 > 0.0 ? n * inversesqrt(n2) : face_normal, wo);
 }
 
-// What a triangle that is no place of a hit emits: a point of a light. face_normal: unit, of its front. wo: unit, world.
+// What a triangle that is no place of a hit emits, a point of a light, to all rays on average: by its coverage. face_normal: unit, of its front.
+// wo: unit, world.
 vec3 emissionAt(uint instance_index, uint primitive, vec3 weights, vec3 face_normal, bool front, vec3 wo) {
     InstanceRecord instance = instanceAt(instance_index);
     uvec3 v = triangleVertices(instance_index, primitive);
     MaterialRecord m = materialAt(instance.material);
     Spot spot = spotAt(instance, v, weights, placementOf(instance_index), face_normal, front, wo);
     Texels texels = sampleSlots(m, kEmissionSlots, v, weights);
-    return emissionOf(m, texels, spot, clearcoatOf(m, texels, spot));
+    vec3 emission = emissionOf(m, texels, spot, clearcoatOf(m, texels, spot));
+    return kAlpha ? emission * coverageOf(m, baseColorOf(m, v, weights, texels).a) : emission;
 }
 
 // wo: unit, world, towards where the path came from.
@@ -87,7 +89,7 @@ Surface surfaceAt(Hit hit, vec3 wo) {
     Placement at = placementOf(hit.instance);
 
     Surface s;
-    s.position = weights.x * worldPoint(at, p0) + weights.y * worldPoint(at, p1) + weights.z * worldPoint(at, p2);
+    s.position = interpolate(weights, worldPoint(at, p0), worldPoint(at, p1), worldPoint(at, p2));
     Face face = faceOf(at, p0, p1, p2);
     s.front = dot(face.normal, wo) >= 0.0;
     s.face_normal = s.front ? face.normal : -face.normal;
@@ -98,14 +100,14 @@ Surface surfaceAt(Hit hit, vec3 wo) {
     s.frame = frameFromNormal(shadingNormal(m, kSlotNormal, texels, m.normal_scale, spot));
 
     vec4 base = baseColorOf(m, v, weights, texels);
-    bool unlit = kUnlit && (m.flags & kMaterialUnlit) != 0u;
+    s.unlit = kUnlit && (m.flags & kMaterialUnlit) != 0u;
     s.base_color = base.rgb;
     Clearcoat coat = clearcoatOf(m, texels, spot);
     s.bsdf = bsdfOf(m, texels, s.frame, base.rgb, coat);
     s.emission = emissionOf(m, texels, spot, coat);
     s.light = kNoIndex;
     if (kLightTriangles && instance.first_light != kNoIndex && largest(s.emission) > 0.0) s.light = instance.first_light + hit.primitive;
-    if (unlit) {
+    if (s.unlit) {
         s.bsdf = lambertBsdf(vec3(0.0));
         s.emission = base.rgb;
     }

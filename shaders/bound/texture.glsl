@@ -54,7 +54,7 @@ vec4 texelAt(TextureRecord t, ivec2 at, uint flags) {
         vec3 f = x - vec3(i);
         vec3 from = vec3(srgb_table[i.x], srgb_table[i.y], srgb_table[i.z]);
         vec3 to = vec3(srgb_table[i.x + 1u], srgb_table[i.y + 1u], srgb_table[i.z + 1u]);
-        return vec4(mix(from, to, f), c.a);
+        return vec4(from + f * (to - from), c.a);
     }
     uvec4 b = uvec4(low & 255u, (low >> 8u) & 255u, (low >> 16u) & 255u, low >> 24u);
     if ((flags & kSlotSrgb) == 0u) return vec4(b) / 255.0;
@@ -72,8 +72,8 @@ vec4 sampleTexture(TextureSlotRecord slot, uvec3 v, vec3 weights) {
     x = (slot.flags & kSlotLinear) == 0u ? floor(x) : x - 0.5;
     ivec2 i = ivec2(floor(x));
     vec2 f = x - vec2(i);
-    return mix(mix(texelAt(t, i, slot.flags), texelAt(t, i + ivec2(1, 0), slot.flags), f.x),
-               mix(texelAt(t, i + ivec2(0, 1), slot.flags), texelAt(t, i + ivec2(1, 1), slot.flags), f.x), f.y);
+    return lerp(lerp(texelAt(t, i, slot.flags), texelAt(t, i + ivec2(1, 0), slot.flags), f.x),
+                lerp(texelAt(t, i + ivec2(0, 1), slot.flags), texelAt(t, i + ivec2(1, 1), slot.flags), f.x), f.y);
 }
 
 #endif

@@ -11,7 +11,14 @@ layout(location = 0) in vec2 barycentrics;
 layout(location = 1) flat in uvec2 instance_primitive;
 layout(location = 0) out uvec4 hit_record;
 
+// Along the camera's axis.
+float fragmentDepth() {
+    ViewRecord view = frame.view;
+    return view.orthographic != 0u ? view.z_far - gl_FragCoord.z * (view.z_far - view.z_near) : 1.0 / gl_FragCoord.w;
+}
+
 void main() {
+    if (fragmentDepth() > frame.view.z_limit) discard;
     // Interpolation may end a rounding outside the triangle.
     vec2 b = max(barycentrics, vec2(0.0));
     float sum = b.x + b.y;

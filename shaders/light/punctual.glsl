@@ -14,7 +14,9 @@ vec3 irradianceOfSpot(LightRecord r, vec3 direction, float distance2) {
         irradiance *= clamp(1.0 - x * x, 0.0, 1.0);
     }
     if (kindOf(r) == kLightSpot) {
-        float cone = clamp(dot(light.axis, -direction) * light.scale + light.offset, 0.0, 1.0);
+        vec3 aside = light.axis + direction;
+        float versine = 0.5 * dot(aside, aside);  // 1 - cos of the angle to the axis, without cancellation
+        float cone = clamp(light.offset - light.scale * versine, 0.0, 1.0);
         irradiance *= cone * cone;
     }
     return irradiance;

@@ -25,8 +25,8 @@ vec3 environmentRadiance(vec3 direction) {
     int right = (i.x + 1) % size.x;
     int top = clamp(i.y, 0, size.y - 1);
     int bottom = clamp(i.y + 1, 0, size.y - 1);
-    return mix(mix(texelFetch(environment_map, ivec2(left, top), 0).rgb, texelFetch(environment_map, ivec2(right, top), 0).rgb, f.x),
-               mix(texelFetch(environment_map, ivec2(left, bottom), 0).rgb, texelFetch(environment_map, ivec2(right, bottom), 0).rgb, f.x), f.y);
+    return lerp(lerp(texelFetch(environment_map, ivec2(left, top), 0).rgb, texelFetch(environment_map, ivec2(right, top), 0).rgb, f.x),
+                lerp(texelFetch(environment_map, ivec2(left, bottom), 0).rgb, texelFetch(environment_map, ivec2(right, bottom), 0).rgb, f.x), f.y);
 }
 
 // Solid angle of one texel of that row, 2 pi / width times the difference of two cosines as a product, which loses nothing near the poles.

@@ -139,6 +139,7 @@ void extendPath(inout Path p, inout PathCounts counts, out ShadowRay to_light, o
     // What the surface emits: T^bounce Le.
     Surface s = surfaceAt(p.hit, p.wo);
     if (kRegularise && p.bounce > 0u) s.bsdf = regularised(s.bsdf);
+    if (kUnlit && s.unlit && p.bounce > 0u) s.emission = vec3(0.0);
     if (kEmission || kUnlit) {
         p.radiance += foundLight(p.address.pixel, p.bounce, p.throughput * weightOfMeeting(p, pdfOfSurface(s, p.from)) * s.emission);
     }

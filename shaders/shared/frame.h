@@ -18,7 +18,7 @@ struct ViewRecord {
     float z_near;
     uvec2 size;   // pixels
     float z_far;  // orthographic: beyond everything; perspective has no far plane
-    uint reserved;
+    float z_limit;  // along the axis; nothing farther is seen; infinity: no such limit
 };
 
 struct FrameRecord {

@@ -78,7 +78,8 @@ LICHT_FUNCTION SunLight unpackSun(LightRecord r) {
     return light;
 }
 
-// A point, or a spot, whose light falls off by clamp(cos * scale + offset, 0, 1)^2 with the angle to its axis.
+// A point, or a spot, whose light falls off by clamp(offset - scale * (1 - cos), 0, 1)^2 with the angle to its axis. 1 - cos, because the cosines of narrow
+// cones are all next to one.
 struct SpotLight {
     vec3 position;   // world
     float range;     // metres; 0: unlimited

@@ -108,7 +108,7 @@ std::map<std::string, Record> hostRecords() {
                      LICHT_MEMBER(ViewRecord, up), LICHT_MEMBER(ViewRecord, scale_y),
                      LICHT_MEMBER(ViewRecord, back), LICHT_MEMBER(ViewRecord, z_near),
                      LICHT_MEMBER(ViewRecord, size), LICHT_MEMBER(ViewRecord, z_far),
-                     LICHT_MEMBER(ViewRecord, reserved)),
+                     LICHT_MEMBER(ViewRecord, z_limit)),
         LICHT_RECORD(FrameRecord, LICHT_MEMBER(FrameRecord, view), LICHT_MEMBER(FrameRecord, previous_view),
                      LICHT_MEMBER(FrameRecord, light_slots), LICHT_MEMBER(FrameRecord, environment_light),
                      LICHT_MEMBER(FrameRecord, environment_size), LICHT_MEMBER(FrameRecord, bounces),

@@ -193,8 +193,7 @@ TEST(DetectEffects, AnEmissiveTextureCountsByItsMeanOverItsMaximum) {
     scene.textures[0] = {"t", 4, 1, 8, {255, 255, 255, 255, 0, 0, 0, 255, 0, 0, 0, 255, 0, 0, 0, 255}};
     EXPECT_EQ(detectEffects(scene).names(), (Names{"textures", "emission", "lightTriangles"}));
     scene.textures[0] = {"t", 1, 1, 8, {0, 0, 0, 255}};
-    EXPECT_EQ(detectEffects(scene).names(), (Names{"textures", "emission"}))
-        << "a black texture lights nothing";
+    EXPECT_EQ(detectEffects(scene).names(), (Names{"textures"})) << "a black texture lights nothing";
 }
 
 TEST(DetectEffects, TheEvidenceNamesTheFirstObject) {
@@ -215,7 +214,7 @@ TEST(IsDark, WhereNothingGivesLight) {
     EXPECT_TRUE(isDark(Scene{}));
     EXPECT_TRUE(isDark(plainScene()));
     const std::vector<Change> lights{[](Scene& s) { material(s).emission = vec3(0, 1, 0); },
-                                     [](Scene& s) { material(s).unlit = true; },
+                                     [](Scene& s) { material(s).unlit = true; },  // nothing wants light
                                      [](Scene& s) { s.lights.push_back({.name = "L"}); },
                                      [](Scene& s) { s.environment = constantEnvironment(vec3(1)); }};
     for (const Change& light : lights) {
@@ -223,6 +222,24 @@ TEST(IsDark, WhereNothingGivesLight) {
         light(scene);
         EXPECT_FALSE(isDark(scene));
     }
+    const std::vector<Change> none{[](Scene& s) { material(s).emission = vec3(0.5F * kDimmestEmission); },
+                                   [](Scene& s) { s.lights.push_back({.name = "L", .intensity = vec3(0)}); },
+                                   [](Scene& s) {
+                                       material(s).emission = vec3(1);
+                                       material(s).slots[kSlotEmissive] = textured();
+                                       s.textures = {{"black", 1, 1, 8, {0, 0, 0, 255}}};
+                                   },
+                                   [](Scene& s) { s.environment = constantEnvironment(vec3(0)); }};
+    for (const Change& change : none) {
+        Scene scene = plainScene();
+        change(scene);
+        EXPECT_TRUE(isDark(scene));
+    }
+    // One unlit mark lights nothing.
+    Scene marked = lampScene(0.25F);
+    marked.materials[1].emission = vec3(0.0F);
+    marked.materials[1].unlit = true;
+    EXPECT_TRUE(isDark(marked));
 }
 
 }  // namespace
