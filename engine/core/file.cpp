@@ -119,6 +119,22 @@ std::vector<std::byte> readFile(const std::filesystem::path& path, std::uint64_t
     return bytes;
 }
 
+bool sameFile(const std::filesystem::path& a, const std::filesystem::path& b) {
+    struct stat status_a {};
+    struct stat status_b {};
+    const bool there_a = ::stat(a.c_str(), &status_a) == 0;
+    const bool there_b = ::stat(b.c_str(), &status_b) == 0;
+    if (there_a != there_b) return false;
+    if (there_a) return status_a.st_dev == status_b.st_dev && status_a.st_ino == status_b.st_ino;
+    std::error_code error_a;
+    std::error_code error_b;
+    const std::filesystem::path path_a =
+        std::filesystem::weakly_canonical(std::filesystem::absolute(a, error_a), error_a);
+    const std::filesystem::path path_b =
+        std::filesystem::weakly_canonical(std::filesystem::absolute(b, error_b), error_b);
+    return !error_a && !error_b && path_a == path_b;
+}
+
 AtomicFile::AtomicFile(std::filesystem::path destination) : destination_(std::move(destination)) {
     requireReplaceable(destination_);
     // A link stays a link: what it points to is replaced.

@@ -17,6 +17,10 @@ std::uint64_t requireRegularFile(const std::filesystem::path& path);
 std::vector<std::byte> readFile(const std::filesystem::path& path,
                                 std::uint64_t max_bytes = std::uint64_t{4} << 30U);
 
+/// Whether both names lead to one file: by device and inode where the files exist, else by the folder's and
+/// the name. False where one of them cannot be looked at.
+bool sameFile(const std::filesystem::path& a, const std::filesystem::path& b);
+
 /// A file that appears under its name complete or not at all: it is written beside its destination and
 /// renamed by commit(). Without commit() the destructor removes what was written and the old file stays
 /// intact.

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <memory>
 #include <span>
@@ -17,6 +18,7 @@
 #include "samples/licht/bench_kind.h"
 #include "samples/licht/bench_report.h"
 #include "samples/licht/commands.h"
+#include "samples/licht/outputs.h"
 #include "samples/licht/scene_source.h"
 
 namespace licht {
@@ -67,13 +69,14 @@ std::vector<RayList> raysOf(gpu::Device& device, const Scene& scene, const Shot&
 }  // namespace
 
 int bench(const BenchOptions& options) {
-    if (options.json) const AtomicFile probe(*options.json);
+    if (options.json) checkWritable(*options.json);
     SceneRequest request = options.source;
     if (request.triangles == 0 && takesTriangles(request.scene)) request.triangles = kDefaultBenchTriangles;
 
     BenchProgress progress(options.quiet, 5 * (options.runs + 1));
     progress.show("scene ...");
     const NamedScene source = loadScene(request);
+    if (options.json) requireOwnFiles(std::array{std::filesystem::path(*options.json)}, source.scene.files);
     const Shot shot = chooseShot(source, request.camera, options.size);
     gpu::DeviceOptions device_options;
     device_options.device = options.device;
@@ -121,7 +124,7 @@ int bench(const BenchOptions& options) {
         writeFile(*options.json, std::as_bytes(std::span(json)));
     }
     progress.show("");
-    fmt::print("{}", benchText(report));
+    printOut(benchText(report));
     return device.validationMessages().empty() ? 0 : 1;
 }
 

@@ -13,6 +13,7 @@
 #include "licht/image/exr.h"
 #include "licht/measure/metrics.h"
 #include "samples/licht/commands.h"
+#include "samples/licht/outputs.h"
 
 namespace licht {
 namespace {
@@ -126,7 +127,12 @@ Comparison comparePictures(const MeasuredPicture& picture, const MeasuredPicture
 }
 
 int compare(const CompareOptions& options) {
-    if (options.json) const AtomicFile probe(*options.json);
+    if (options.json) {
+        checkWritable(*options.json);
+        std::vector<std::filesystem::path> inputs(options.pictures.begin(), options.pictures.end());
+        inputs.emplace_back(options.reference);
+        requireOwnFiles(std::array{std::filesystem::path(*options.json)}, inputs);
+    }
     const MeasuredPicture reference = readMeasured(options.reference);
     std::string text = headText(reference);
     Json json{{"reference", pictureJson(reference)},
@@ -144,7 +150,7 @@ int compare(const CompareOptions& options) {
         const std::string written = json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
         writeFile(*options.json, std::as_bytes(std::span(written)));
     }
-    fmt::print("{}", text);
+    printOut(text);
     return 0;
 }
 

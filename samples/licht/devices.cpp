@@ -7,6 +7,7 @@
 #include "licht/core/error.h"
 #include "licht/gpu/device.h"
 #include "samples/licht/commands.h"
+#include "samples/licht/outputs.h"
 
 namespace licht {
 namespace {
@@ -39,7 +40,7 @@ std::string devicesText(const std::vector<gpu::DeviceReport>& reports) {
 
 int devices(const DevicesOptions& options) {
     const std::vector<gpu::DeviceReport> reports = gpu::listDevices({});
-    fmt::print("{}", options.json ? devicesJson(reports) : devicesText(reports));
+    printOut(options.json ? devicesJson(reports) : devicesText(reports));
     if (std::none_of(reports.begin(), reports.end(),
                      [](const gpu::DeviceReport& report) { return report.chosen; }))
         throw DeviceError("no usable Vulkan device on this machine");

@@ -7,7 +7,7 @@
 namespace licht {
 namespace {
 
-constexpr std::array<int, 2> kSignals{SIGINT, SIGTERM};
+constexpr std::array<int, 3> kSignals{SIGINT, SIGTERM, SIGHUP};
 volatile std::sig_atomic_t signalled = 0;
 std::array<struct sigaction, kSignals.size()> previous{};
 bool watching = false;
@@ -26,7 +26,12 @@ InterruptWatch::InterruptWatch() {
     action.sa_handler = noteSignal;
     action.sa_flags = static_cast<int>(SA_RESETHAND) | SA_RESTART;
     sigemptyset(&action.sa_mask);
-    for (std::size_t i = 0; i < kSignals.size(); ++i) sigaction(kSignals[i], &action, &previous[i]);
+    for (std::size_t i = 0; i < kSignals.size(); ++i) {
+        sigaction(kSignals[i], &action, &previous[i]);
+        // nohup: who started the program wants it to outlive the terminal.
+        if (kSignals[i] == SIGHUP && previous[i].sa_handler == SIG_IGN)
+            sigaction(kSignals[i], &previous[i], nullptr);
+    }
 }
 
 InterruptWatch::~InterruptWatch() {

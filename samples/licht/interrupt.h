@@ -2,8 +2,8 @@
 
 namespace licht {
 
-/// While it lives, the first Ctrl-C (SIGINT) or SIGTERM asks to finish, and a second one ends the process at
-/// once. One at a time.
+/// While it lives, the first Ctrl-C (SIGINT), SIGTERM or SIGHUP (the terminal is gone; unless it is ignored,
+/// as by nohup) asks to finish, and a second one ends the process at once. One at a time.
 class InterruptWatch {
 public:
     InterruptWatch();

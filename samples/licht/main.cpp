@@ -1,12 +1,12 @@
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <exception>
 #include <new>
 
 #include "licht/core/error.h"
 #include "samples/licht/command_line.h"
 #include "samples/licht/commands.h"
+#include "samples/licht/outputs.h"
 #include "samples/licht/text.h"
 
 namespace {
@@ -15,7 +15,7 @@ enum ExitCode { kDone = 0, kFailed = 1, kBadInput = 2 };
 
 struct Run {
     int operator()(const licht::PrintedText& printed) const {
-        fmt::print("{}", printed.text);
+        licht::printOut(printed.text);
         return kDone;
     }
     int operator()(const licht::RenderOptions& options) const { return licht::render(options); }
@@ -27,15 +27,26 @@ struct Run {
 };
 
 int complain(const char* text, ExitCode code) {
-    fmt::print(stderr, "licht: {}\n", licht::oneLine(text));
+    licht::printError(fmt::format("licht: {}\n", licht::oneLine(text)));
     return code;
+}
+
+/// Of most commands the text is all there is; pictures are there whether or not it was heard of them.
+bool worksByText(const licht::Command& command) {
+    return !std::holds_alternative<licht::RenderOptions>(command) &&
+           !std::holds_alternative<licht::ViewOptions>(command);
 }
 
 }  // namespace
 
 int main(int argument_count, char** arguments) {
     try {
-        return std::visit(Run{}, licht::parseCommandLine(argument_count, arguments));
+        licht::secureStandardStreams();
+        const licht::Command command = licht::parseCommandLine(argument_count, arguments);
+        const int code = std::visit(Run{}, command);
+        if (licht::lostOutput() && worksByText(command))
+            return complain("standard output cannot be written to", kFailed);
+        return code;
     } catch (const licht::InputError& error) {
         return complain(error.what(), kBadInput);
     } catch (const std::bad_alloc&) {

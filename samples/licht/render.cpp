@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <optional>
 #include <span>
@@ -15,6 +16,7 @@
 #include "samples/licht/commands.h"
 #include "samples/licht/exr_layers.h"
 #include "samples/licht/interrupt.h"
+#include "samples/licht/outputs.h"
 #include "samples/licht/report.h"
 #include "samples/licht/scene_source.h"
 #include "samples/licht/series_report.h"
@@ -22,11 +24,6 @@
 
 namespace licht {
 namespace {
-
-/// Fails before anything is rendered when a file could not be written afterwards.
-void checkWritable(const std::filesystem::path& path) {
-    const AtomicFile probe(path);
-}
 
 bool isExr(const std::filesystem::path& path) {
     return lowerCase(path.extension().string()) == ".exr";
@@ -71,25 +68,64 @@ void describeRun(RenderReport& report, const gpu::Device& device, const Renderer
 
 /// The pilot found no depth that spends the light.
 void warnOfDepth(const DepthChoice& depth) {
-    fmt::print(stderr,
-               "licht: warning: --bounces auto: no depth up to {} leaves less than {} of the light; {} are "
-               "followed\n",
-               depth.bounces, depth.wanted_share, depth.bounces);
+    printError(
+        fmt::format("licht: warning: --bounces auto: no depth up to {} leaves less than {} of the light; {} "
+                    "are followed\n",
+                    depth.bounces, depth.wanted_share, depth.bounces));
 }
 
 /// What makes a picture doubtful is said, not only reported.
 void warnOfDoubts(const RenderReport& report) {
     const RenderStatistics& statistics = report.statistics;
     if (const std::string bias = biasLine(report); !bias.empty())
-        fmt::print(stderr, "licht: warning: the picture is biased: {}\n", bias);
+        printError(fmt::format("licht: warning: the picture is biased: {}\n", bias));
     if (statistics.nonfinite_samples > 0)
-        fmt::print(stderr, "licht: warning: {} samples were no finite number and count as black\n",
-                   statistics.nonfinite_samples);
+        printError(fmt::format("licht: warning: {} samples were no finite number and count as black\n",
+                               statistics.nonfinite_samples));
     if (statistics.truncated_traversals > 0)
-        fmt::print(stderr,
-                   "licht: warning: the driver ended {} searches for a hit early; surfaces may be "
-                   "missing\n",
-                   statistics.truncated_traversals);
+        printError(fmt::format(
+            "licht: warning: the driver ended {} searches for a hit early; surfaces may be missing\n",
+            statistics.truncated_traversals));
+}
+
+/// A picture that shows nothing says why. Below 1.5e-4 the nearest of 256 sRGB codes is 0.
+void warnOfBlackness(const Film& film, double exposure) {
+    constexpr double kLeastShown = 1.5e-4;
+    float brightest = 0.0F;
+    float covered = 0.0F;
+    for (std::size_t i = 0; i + 3 < film.mean.texels.size(); i += 4) {
+        for (std::size_t c = 0; c < 3; ++c) brightest = std::max(brightest, film.mean.texels[i + c]);
+        covered = std::max(covered, film.mean.texels[i + 3]);
+    }
+    if (static_cast<double>(brightest) * std::exp2(exposure) >= kLeastShown) return;
+    const std::string why =
+        covered <= 0.0F ? "the camera sees nothing of the scene"
+        : brightest <= 0.0F
+            ? "no light reaches what the camera sees"
+            : fmt::format("its brightest pixel has {:.3g} cd/m^2; --exposure {:.0f} would show it", brightest,
+                          std::ceil(-std::log2(brightest)));
+    printError(fmt::format("licht: warning: the picture is black: {}\n", why));
+}
+
+/// A picture that is there is not lost because another file cannot be written: says why, and goes on.
+template <typename Write>
+bool written(const Write& write) {
+    try {
+        write();
+        return true;
+    } catch (const std::exception& error) {
+        printError(fmt::format("licht: {}\n", oneLine(error.what())));
+        return false;
+    }
+}
+
+/// All files that a run gives, checked against all that it takes.
+void requireFilesOfItsOwn(const RenderOptions& options, const Scene& scene, const RenderReport& report) {
+    std::vector<std::filesystem::path> outputs = report.outputs;
+    if (options.report) outputs.emplace_back(*options.report);
+    std::vector<std::filesystem::path> inputs = scene.files;
+    if (options.source.environment) inputs.emplace_back(*options.source.environment);
+    requireOwnFiles(outputs, inputs);
 }
 
 }  // namespace
@@ -112,7 +148,9 @@ int render(const RenderOptions& options) {
     if (report.outputs.empty()) {
         report.outputs.emplace_back(source.name + ".png");
         checkWritable(report.outputs.front());
+        requireNoStranger(report.outputs.front());
     }
+    requireFilesOfItsOwn(options, source.scene, report);
 
     gpu::DeviceOptions device_options;
     device_options.device = options.device;
@@ -137,26 +175,35 @@ int render(const RenderOptions& options) {
 
     describeRun(report, device, renderer, result);
     const double exposure = options.run.exposure.value_or(source.scene.default_exposure);
+    bool all_written = true;
     for (const auto& output : report.outputs) {
-        if (isExr(output))
-            writeExr(output, exrPicture(result.film, options.run.render.layers, reportAttributes(report)));
-        else
-            writePng(output,
-                     opaquePicture(renderer.readDisplay(options.run.tonemap, static_cast<float>(exposure))));
-        if (!options.quiet) fmt::print("wrote {} ({}x{})\n", output.string(), shot.size.x, shot.size.y);
+        const bool good = written([&] {
+            if (isExr(output))
+                writeExr(output,
+                         exrPicture(result.film, options.run.render.layers, reportAttributes(report)));
+            else
+                writePng(output, opaquePicture(renderer.readDisplay(options.run.tonemap,
+                                                                    static_cast<float>(exposure))));
+        });
+        all_written &= good;
+        if (good && !options.quiet)
+            printOut(fmt::format("wrote {} ({}x{})\n", oneLine(output.string()), shot.size.x, shot.size.y));
     }
     report.statistics = renderer.statistics();
-    if (!options.quiet) warnOfDoubts(report);
+    if (!options.quiet) {
+        warnOfDoubts(report);
+        warnOfBlackness(result.film, exposure);
+    }
     report.host_peak_bytes = hostPeakBytes();
     report.total_seconds = secondsSinceProcessStart();
     if (options.report) {
         const std::string json = reportJson(report);
-        writeFile(*options.report, std::as_bytes(std::span(json)));
+        all_written &= written([&] { writeFile(*options.report, std::as_bytes(std::span(json))); });
     }
-    if (!options.quiet) fmt::print("{}\n", reportLine(report));
+    if (!options.quiet) printOut(reportLine(report) + "\n");
     if (result.stopped_by == Stop::interrupt)
-        fmt::print(stderr, "licht: interrupted: wrote what was there, {}\n", reportLine(report));
-    return device.validationMessages().empty() ? 0 : 1;
+        printError(fmt::format("licht: interrupted: wrote what was there, {}\n", reportLine(report)));
+    return all_written && device.validationMessages().empty() ? 0 : 1;
 }
 
 }  // namespace licht

@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <system_error>
 
 #include "licht/core/error.h"
 #include "licht/image/files.h"
 #include "licht/scene/gltf.h"
+#include "samples/licht/outputs.h"
 #include "samples/licht/text.h"
 #include "samples/scenes/builtin.h"
 
@@ -42,20 +42,28 @@ bool isTestScene(const NamedScene& source) {
 }
 
 std::optional<std::size_t> findCamera(const Scene& scene, const std::string& wanted) {
-    const auto named = std::find_if(scene.cameras.begin(), scene.cameras.end(),
-                                    [&](const Camera& camera) { return camera.name == wanted; });
-    if (named != scene.cameras.end()) return static_cast<std::size_t>(named - scene.cameras.begin());
     std::size_t index = 0;
     const char* end = wanted.data() + wanted.size();
     const auto [stop, error] = std::from_chars(wanted.data(), end, index);
     if (error == std::errc{} && stop == end && index < scene.cameras.size()) return index;
+    for (const auto member : {&Camera::node, &Camera::name}) {
+        const auto named = std::find_if(scene.cameras.begin(), scene.cameras.end(),
+                                        [&](const Camera& camera) { return camera.*member == wanted; });
+        if (named != scene.cameras.end()) return static_cast<std::size_t>(named - scene.cameras.begin());
+    }
     return std::nullopt;
+}
+
+std::string cameraWords(const Camera& camera) {
+    return camera.node.empty() || camera.node == camera.name
+               ? fmt::format("'{}'", camera.name)
+               : fmt::format("'{}' on '{}'", camera.name, camera.node);
 }
 
 [[noreturn]] void refuseCamera(const NamedScene& source, const std::string& wanted) {
     std::string known;
     for (std::size_t i = 0; i < source.scene.cameras.size(); ++i)
-        known += fmt::format("{}{} '{}'", i == 0 ? "" : ", ", i, source.scene.cameras[i].name);
+        known += fmt::format("{}{} {}", i == 0 ? "" : ", ", i, cameraWords(source.scene.cameras[i]));
     throw InputError(fmt::format("{}: no camera '{}'; the scene has {}", source.name, wanted,
                                  known.empty() ? "none" : known));
 }
@@ -109,9 +117,11 @@ NamedScene loadScene(const SceneRequest& request) {
     } else if (request.background) {
         scene.environment = constantEnvironment(*request.background);
     } else if (isDark(scene)) {
+        const bool dim = brightestEmission(scene) > 0.0F;
         scene.environment = constantEnvironment(vec3(1.0F));
-        scene.notes.push_back(
-            {SceneNote::Kind::warning, "nothing in the scene gives light: lit by a neutral sky of 1 cd/m^2"});
+        scene.notes.push_back({SceneNote::Kind::warning,
+                               fmt::format("{} in the scene gives light: lit by a neutral sky of 1 cd/m^2",
+                                           dim ? "nothing bright enough to see" : "nothing")});
     }
     if (request.sun_angle)
         for (PunctualLight& light : scene.lights)
@@ -145,7 +155,7 @@ Shot chooseShot(const NamedScene& source, const std::optional<std::string>& came
 void printWarnings(const Scene& scene) {
     for (const SceneNote& note : scene.notes)
         if (note.kind == SceneNote::Kind::warning)
-            fmt::print(stderr, "licht: warning: {}\n", oneLine(note.text));
+            printError(fmt::format("licht: warning: {}\n", oneLine(note.text)));
 }
 
 }  // namespace licht

@@ -21,13 +21,4 @@ std::string lowerCase(std::string_view text) {
     return lower;
 }
 
-std::string oneLine(std::string_view text) {
-    std::string line(text);
-    while (!line.empty() && (line.back() == '\n' || line.back() == '\r' || line.back() == ' '))
-        line.pop_back();
-    std::replace_if(
-        line.begin(), line.end(), [](char c) { return (c >= 0 && c < ' ') || c == '\x7f'; }, ' ');
-    return line;
-}
-
 }  // namespace licht

@@ -404,9 +404,9 @@ TEST(Interrupt, AdaptiveKeepsItsWholeRounds) {
     EXPECT_TRUE(allFinite(readExr(folder.path() / "a.exr"), "R"));
 }
 
-INSTANTIATE_TEST_SUITE_P(Cli, InterruptTest, testing::Values(SIGINT, SIGTERM),
+INSTANTIATE_TEST_SUITE_P(Cli, InterruptTest, testing::Values(SIGINT, SIGTERM, SIGHUP),
                          [](const testing::TestParamInfo<int>& sent) {
-                             return sent.param == SIGINT ? "Int" : "Term";
+                             return sent.param == SIGINT ? "Int" : sent.param == SIGTERM ? "Term" : "Hup";
                          });
 
 TEST(Info, TextAndJsonOfEveryBuiltin) {
