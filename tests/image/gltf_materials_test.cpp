@@ -1,6 +1,7 @@
 // What a file says of its materials, seen in a picture: closed forms, one small file each.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 

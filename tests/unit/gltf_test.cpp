@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "../support/gltf_file.h"
@@ -63,6 +64,26 @@ TEST_F(Gltf, ExternalEmbeddedAndBinaryFilesAreTheSame) {
         EXPECT_EQ(scene.materials[0].metallic, 1.0F);
         EXPECT_EQ(scene.materials[0].roughness, 1.0F);
     }
+}
+
+// Whoever prints a name need not know where it comes from.
+TEST_F(Gltf, NamesAreCleanedAtTheEntrance) {
+    GltfFile file = GltfFile::triangle();
+    file.json["nodes"][0]["name"] =
+        "red \x1b[31m\xc2\x9b"
+        "1m \xe2\x80\xae"
+        "txt\n";
+    file.json["meshes"][0]["name"] =
+        "a\x07"
+        "b";
+    file.json["materials"] = Json::array({{{"name",
+                                            "c\x01"
+                                            "d"}}});
+    file.primitive()["material"] = 0;
+    const Scene scene = load(file);
+    EXPECT_EQ(scene.instances[0].name, "red  [31m 1m  txt");
+    EXPECT_EQ(scene.meshes[0].name, "a b");
+    EXPECT_EQ(scene.materials[0].name, "c d");
 }
 
 TEST_F(Gltf, AFileNameMayBePercentEncodedAndLieDeeper) {
