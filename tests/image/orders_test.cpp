@@ -95,6 +95,26 @@ TEST(Orders, OfAWidePictureStandInSeveralRows) {
     EXPECT_LE(left, poissonQuantile(10.0 * 1.2e-5 * 9.0 * static_cast<double>(pixels), 1e-9));
 }
 
+// A path that roulette keeps is worth what those are that it ended, however few are kept: with albedo 0.02
+// one of fifty goes on. Each sample of an order is r^i over what kept it, or nothing.
+TEST(Orders, AreKeptWholeByRouletteOnDarkSurfaces) {
+    const float albedo = 0.02F;
+    const Scene scene = furnace(albedo);
+    RenderSettings settings = withOrders(uvec2(64), 2);
+    settings.roulette_start = 0;
+    const std::uint32_t samples = 64;
+    const Film film = renderFilm(scene, scene.cameras[0], settings, samples);
+    for (std::size_t i = 1; i <= 2; ++i) {
+        double sum = 0.0;
+        for (std::size_t k = 0; k < film.orders[i].texels.size(); k += 3)
+            sum += static_cast<double>(film.orders[i].texels[k]);
+        const double paths = 64.0 * 64.0 * samples;
+        const double kept = std::pow(static_cast<double>(albedo), static_cast<double>(i));
+        const double mean = sum / (64.0 * 64.0);
+        EXPECT_NEAR(mean, 0.5 * kept, 4.5 * 0.5 * std::sqrt(kept / paths)) << "order " << i;
+    }
+}
+
 // At most eight samples are summed in fp32 before they are taken over in double precision, and a sample adds
 // up to two terms: 16 roundings each way.
 TEST(Orders, SumToThePicture) {
