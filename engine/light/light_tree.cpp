@@ -254,14 +254,14 @@ double importance(const LightChildRecord& c, const ShadingPoint& at) {
     const double cos_receiver = glm::dot(w, at.normal);
     double received = std::max(meanAboveZero(cos_receiver, std::sin(sphere)),
                                static_cast<double>(kLightLeastReceived) * std::sin(sphere) + slack);
-    if (at.coat > 0.0) {
+    if (at.specular > 0.0) {
         const double sine = std::sin(sphere);
         const double a2 =
             std::min(at.alpha * at.alpha + static_cast<double>(kLightWidening) * sine * sine, 1.0);
         const double cos_sum = std::max(glm::dot(at.wo, at.normal) + cos_receiver, 0.0);
         const double sum2 = 2.0 + 2.0 * glm::dot(at.wo, w);
         const double below = a2 * cos_sum * cos_sum + std::max(sum2 - cos_sum * cos_sum, 0.0);
-        if (below > 0.0) received += at.coat * a2 * (sum2 / below) * (sum2 / below);
+        if (below > 0.0) received += at.specular * a2 * (sum2 / below) * (sum2 / below);
     }
     double cos_axis = -glm::dot(glm::dvec3(c.axis), w);
     if ((c.next & kLightTwoSided) != 0) cos_axis = std::abs(cos_axis);

@@ -34,9 +34,9 @@ LightTree buildLightTree(std::span<const LightBound> lights);
 struct ShadingPoint {
     glm::dvec3 position;  ///< world
     glm::dvec3 normal;    ///< world, unit
-    glm::dvec3 wo{0.0};   ///< world, unit, where it sends the light to; heeded where there is a coat
-    double alpha = 1.0;   ///< GGX width of the coat
-    double coat = 0.0;    ///< F G / (4 cos_o) of the coat over the base's albedo
+    glm::dvec3 wo{0.0};  ///< world, unit, where it sends the light to; heeded where there is a specular layer
+    double alpha = 1.0;  ///< GGX width of the specular layer
+    double specular = 0.0;  ///< F G / (4 cos_o) of the specular layer over the base's albedo
 };
 
 /// Probability that a walk from a surface ends at the light of that trail; the shader's formula in double

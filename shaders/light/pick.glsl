@@ -22,7 +22,7 @@ PackedShadingPoint shadingPointAt(Surface s, vec3 wo) {
         p.wo = wo;
         vec2 gloss = cos_o > 0.0 ? glossTowards(s.bsdf, cos_o) : vec2(1.0, 0.0);
         p.alpha = gloss.x;
-        p.coat = gloss.y;
+        p.specular = gloss.y;
     }
     return packShadingPoint(p);
 }

@@ -8,8 +8,8 @@ struct ShadingPoint {
     vec3 position;  // world
     vec3 normal;    // world, unit: of shading
     vec3 wo;        // world, unit, where it sends the light to
-    float alpha;    // GGX width of its coat
-    float coat;     // F G / (4 cos_o) of the coat over the base's albedo; 0: Lambertian
+    float alpha;    // GGX width of its specular layer
+    float specular; // F G / (4 cos_o) of the specular layer over the base's albedo; 0: Lambertian
 };
 
 // So that a path can carry it. Picking a light and looking its probability up both read it from here, or else they would not agree.
@@ -17,13 +17,13 @@ struct PackedShadingPoint {
     vec3 position;
     uint normal;
     uint wo;
-    uint gloss;  // two halves: alpha; coat
+    uint gloss;  // two halves: alpha; specular
 };
 
 const PackedShadingPoint kNoShadingPoint = PackedShadingPoint(vec3(0.0), 0u, 0u, 0u);
 
 PackedShadingPoint packShadingPoint(ShadingPoint p) {
-    return PackedShadingPoint(p.position, packOctahedral(p.normal), packOctahedral(p.wo), packHalf2x16(vec2(p.alpha, p.coat)));
+    return PackedShadingPoint(p.position, packOctahedral(p.normal), packOctahedral(p.wo), packHalf2x16(vec2(p.alpha, p.specular)));
 }
 
 ShadingPoint unpackShadingPoint(PackedShadingPoint p) {

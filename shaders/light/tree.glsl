@@ -46,12 +46,12 @@ float lightImportance(LightChildRecord c, ShadingPoint at) {
     if (facing + dot(c.half_size, abs(at.normal)) + kLightSlack * (d2 * inverse) <= 0.0) return 0.0;
     float sin_sphere = min(c.radius * inverse, 1.0), cos_sphere = sineOf(sin_sphere);
     float received = max(meanAboveZero(facing * inverse, sin_sphere), kLightLeastReceived * sin_sphere + kLightSlack);
-    if (kGlossy && at.coat > 0.0) {
+    if (kGlossy && at.specular > 0.0) {
         // pi D of the half vector, its lobe as much wider as the sphere is.
         float a2 = min(at.alpha * at.alpha + kLightWidening * sin_sphere * sin_sphere, 1.0);
         float cos_sum = max(dot(at.wo, at.normal) + facing * inverse, 0.0), sum2 = 2.0 + 2.0 * dot(at.wo, d) * inverse;
         float x = sum2 / max(a2 * cos_sum * cos_sum + max(sum2 - cos_sum * cos_sum, 0.0), kLeastSquare);
-        received += at.coat * a2 * x * x;
+        received += at.specular * a2 * x * x;
     }
 
     // The angle to the axis within which light can come: that of the normals, of the emission and of the sphere. `spread` is less its cosine.

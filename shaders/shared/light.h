@@ -61,7 +61,7 @@ LICHT_CONSTANT float kLightSlack = 1e-4F;
 LICHT_CONSTANT float kLightLeastReceived = 0.2F;  // of the sine of its sphere's angular radius, where the mean is less
 LICHT_CONSTANT float kLightLeastEmitted = 0.1F;   // of the emission, where the mean is less
 LICHT_CONSTANT float kLightSoftening = 0.4F;      // of its radius's square, in that of the distance
-LICHT_CONSTANT float kLightWidening = 0.25F;      // of that sine's square, in that of a coat's width
+LICHT_CONSTANT float kLightWidening = 0.25F;      // of that sine's square, in that of a specular layer's width
 
 // One column of an alias table (Walker 1974; Vose 1991): keep this entry when u < threshold, else take `alias`.
 struct AliasRecord {

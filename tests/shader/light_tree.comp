@@ -10,7 +10,7 @@ struct Place {
     vec3 position;
     float alpha;
     vec3 normal;
-    float coat;
+    float specular;
     vec3 wo;
     float reserved;
 };
@@ -29,7 +29,7 @@ void main() {
     if (i >= count) return;
     Place place = places[i / per_place];
     vec4 u = random4(SampleAddress(uvec2(i & 1023u, i >> 10u), 0u, seed), 0u);
-    ShadingPoint point = ShadingPoint(place.position, place.normal, place.wo, place.alpha, place.coat);
+    ShadingPoint point = ShadingPoint(place.position, place.normal, place.wo, place.alpha, place.specular);
     TreePick pick = pickInTree(point, u.xy);
     bool picked = pick.light != kNoIndex;
     float looked_up = picked ? pmfInTree(point, trails[pick.light]) : 0.0;

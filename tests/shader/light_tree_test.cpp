@@ -72,7 +72,7 @@ ShadingPoint randomPoint(Dice& dice, const dvec3& half, bool glossy) {
     do point.wo = dice.direction();
     while (glm::dot(point.wo, point.normal) < 0.2);
     point.alpha = 0.1 + 0.4 * dice.number();
-    point.coat = std::exp(4.0 * dice.number() - 2.0);
+    point.specular = std::exp(4.0 * dice.number() - 2.0);
     return point;
 }
 
@@ -191,7 +191,7 @@ TEST(LightTree, prefersWhatIsNearAndFacing) {
     EXPECT_EQ(sumOfPmf(tree, {under, dvec3(0, -1, 0)}), 0.0) << "all lights lie below the horizon";
 }
 
-// What a coat shows comes first.
+// What a specular layer shows comes first.
 TEST(LightTree, prefersWhatACoatMirrors) {
     // Two lamps over a floor, alike but for the side; the eye sees the left one mirrored.
     std::vector<LightBound> pair(2);
@@ -212,7 +212,7 @@ TEST(LightTree, prefersWhatACoatMirrors) {
     }(base);
     EXPECT_NEAR(lightTreePmf(tree, floor, tree.trails[0]), (base + 100.0) / (2.0 * base + 100.0 + lobe),
                 1e-4);
-    floor.coat = 0.0;
+    floor.specular = 0.0;
     EXPECT_NEAR(lightTreePmf(tree, floor, tree.trails[0]), 0.5, 1e-9);
 }
 
@@ -220,7 +220,7 @@ struct Place {
     vec3 position;
     float alpha = 0.0F;
     vec3 normal;
-    float coat = 0.0F;
+    float specular = 0.0F;
     vec3 wo;
     float reserved = 0.0F;
 };
@@ -249,7 +249,7 @@ TEST_P(OnDevice, picksWithTheProbabilitiesThatItSays) {
     for (int i = 0; i < 8; ++i) {
         const ShadingPoint r = randomPoint(dice, {8, 3, 20}, i % 2 == 1);
         places.push_back({vec3(r.position), static_cast<float>(r.alpha), vec3(r.normal),
-                          static_cast<float>(r.coat), vec3(r.wo)});
+                          static_cast<float>(r.specular), vec3(r.wo)});
     }
     gpu::Device& device = gpu::testDevice();
     const gpu::Buffer records =
@@ -267,7 +267,7 @@ TEST_P(OnDevice, picksWithTheProbabilitiesThatItSays) {
         std::vector<double> expected;
         const Place& place = places[p];
         const ShadingPoint point{dvec3(place.position), dvec3(place.normal), dvec3(place.wo),
-                                 static_cast<double>(place.alpha), static_cast<double>(place.coat)};
+                                 static_cast<double>(place.alpha), static_cast<double>(place.specular)};
         double lit = 0.0;
         for (const uint trail : tree.trails) {
             expected.push_back(kPerPlace * lightTreePmf(tree, point, trail));

@@ -34,7 +34,7 @@ double poissonQuantile(double mean, double beyond);
 /// Exactly the square fills a square picture.
 Camera downCamera(const vec3& centre, float half, float height);
 
-/// A Lambertian material, no coat.
+/// A Lambertian material, no specular layer.
 Material lambert(float albedo, float emission = 0.0F);
 
 /// A floor under a lamp, both whole in view of each other: a smooth integrand but for the lamp's rim, which
