@@ -13,9 +13,10 @@ namespace licht {
 
 [[noreturn]] void refuseValue(std::string_view option, std::string_view text, std::string_view allowed);
 
-/// The whole text as a number, or nothing.
+/// The whole text as a number, with a sign of either kind, or nothing.
 template <typename T>
 std::optional<T> wholeNumber(std::string_view text) {
+    if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
     T value{};
     const char* end = text.data() + text.size();
     const auto [stop, error] = std::from_chars(text.data(), end, value);

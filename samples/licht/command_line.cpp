@@ -212,6 +212,18 @@ void checkTogether(const RenderOptions& options) {
                                      run.render.first_sample, *run.samples, kMostSamples));
 }
 
+/// What was typed, with `help [COMMAND]` and `version` for those who try them.
+std::vector<std::string> commandWords(int argument_count, const char* const* arguments) {
+    std::vector<std::string> words(arguments + std::min(argument_count, 1), arguments + argument_count);
+    if (words.empty()) return words;
+    if (words[0] == "version") words[0] = "--version";
+    if (words[0] == "help") {
+        words.erase(words.begin());
+        words.emplace_back("--help");
+    }
+    return words;
+}
+
 }  // namespace
 
 Command parseCommandLine(int argument_count, const char* const* arguments) {
@@ -242,8 +254,17 @@ Command parseCommandLine(int argument_count, const char* const* arguments) {
     CLI::App* compare_app = app.add_subcommand("compare", "Measure how far pictures are from a reference");
     addCompare(*compare_app, compare);
 
+    std::vector<std::string> words = commandWords(argument_count, arguments);
+    const auto commands = app.get_subcommands([](const CLI::App*) { return true; });
+    if (!words.empty() && !words[0].starts_with('-') &&
+        std::ranges::none_of(commands, [&](const CLI::App* c) { return c->get_name() == words[0]; }))
+        throw InputError(fmt::format(
+            "'{0}' is no command; render, view, info, bench, devices, compare and help are. To draw a scene: "
+            "licht render {0}",
+            words[0]));
     try {
-        app.parse(argument_count, arguments);
+        std::reverse(words.begin(), words.end());  // as CLI11 takes them
+        app.parse(std::move(words));
     } catch (const CLI::CallForHelp&) {
         return PrintedText{app.help()};
     } catch (const CLI::CallForVersion& call) {

@@ -27,7 +27,7 @@ auto choose(std::string_view option, std::string_view text, const Choices& choic
 
 uvec2 parseSize(std::string_view option, std::string_view text) {
     const std::size_t cross = text.find('x');
-    if (cross != std::string_view::npos) {
+    if (cross != std::string_view::npos && text.find('+') == std::string_view::npos) {
         const auto width = wholeNumber<std::uint32_t>(text.substr(0, cross));
         const auto height = wholeNumber<std::uint32_t>(text.substr(cross + 1));
         const auto inRange = [](std::optional<std::uint32_t> side) {

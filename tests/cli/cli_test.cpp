@@ -432,12 +432,18 @@ TEST(Devices, OneIsChosen) {
 TEST(Help, EverySubcommandHasIt) {
     const ScratchFolder folder;
     for (const Words& arguments : {Words{"--help"}, Words{"render", "--help"}, Words{"info", "--help"},
-                                   Words{"devices", "--help"}, Words{"view", "--help"}, Words{"--version"}}) {
+                                   Words{"devices", "--help"}, Words{"view", "--help"}, Words{"--version"},
+                                   Words{"help"}, Words{"help", "render"}, Words{"version"}}) {
         const Outcome outcome = runWell(folder, arguments);
         EXPECT_NE(outcome.out, "");
         EXPECT_EQ(outcome.err, "");
     }
     EXPECT_NE(runWell(folder, {"render", "--help"}).out.find("--first-sample"), std::string::npos);
+    EXPECT_EQ(runWell(folder, {"help", "render"}).out, runWell(folder, {"render", "--help"}).out);
+    EXPECT_EQ(runWell(folder, {"version"}).out, runWell(folder, {"--version"}).out);
+    const Outcome scene = runLicht(folder, {"cornell"});
+    EXPECT_EQ(scene.exit_code, 2);
+    EXPECT_NE(scene.err.find("licht render cornell"), std::string::npos) << scene.err;
 }
 
 }  // namespace

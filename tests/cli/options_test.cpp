@@ -17,6 +17,14 @@ TEST(ParseSize, TakesWhatIsInRange) {
         EXPECT_THROW(parseSize("--size", bad), InputError) << bad;
 }
 
+TEST(WholeNumber, TakesOneSignOfEitherKind) {
+    EXPECT_EQ(wholeNumber<double>("+1.5"), 1.5);
+    EXPECT_EQ(wholeNumber<double>("-1.5"), -1.5);
+    EXPECT_EQ(wholeNumber<int>("+7"), 7);
+    for (const char* text : {"", "+", "++1", "+-1", "-+1", "1+", " 1", "+ 1"})
+        EXPECT_FALSE(wholeNumber<double>(text)) << text;
+}
+
 TEST(ParseCount, TakesWhatIsInRange) {
     EXPECT_EQ(parseCount32("--spp", "4294967295", 1, 4294967295U), 4294967295U);
     EXPECT_EQ(parseCount("--spp", "3", 3, 3), 3U);
