@@ -1,6 +1,5 @@
 #include "licht/colour/primaries.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace licht {

@@ -59,8 +59,7 @@ void addVertices(FlatGeometry& out, const Mesh& mesh, const mat4& transform, con
         }
         if (effects.has(kEffectVertexColors))
             out.colors.push_back(mesh.colors.empty() ? vec4(1.0F) : mesh.colors[i]);
-        for (uint set = 1; set <= out.extra_uv_sets; ++set)
-            out.extra_uvs.push_back(mesh.uv(set, i));
+        for (uint set = 1; set <= out.extra_uv_sets; ++set) out.extra_uvs.push_back(mesh.uv(set, i));
     }
 }
 

@@ -55,7 +55,7 @@ vec4 baseColorOf(MaterialRecord m, uvec3 v, vec3 weights, Texels texels) {
 // Share of rays that meet the surface where the base colour has that alpha.
 float coverageOf(MaterialRecord m, float alpha) {
     if ((m.flags & kMaterialAlphaMask) != 0u) return alpha >= m.alpha_cutoff ? 1.0 : 0.0;
-    return (m.flags & kMaterialAlphaBlend) != 0u ? alpha : 1.0;
+    return (m.flags & kMaterialAlphaBlend) != 0u ? min(alpha, 1.0) : 1.0;
 }
 
 // A masked or blended surface is there or not, for this ray, as one number of [0,1) decides.

@@ -16,8 +16,8 @@ struct ViewRecord {
     float scale_y;
     vec3 back;  // unit: the camera looks along -back
     float z_near;
-    uvec2 size;   // pixels
-    float z_far;  // orthographic: beyond everything; perspective has no far plane
+    uvec2 size;     // pixels
+    float z_far;    // orthographic: beyond everything; perspective has no far plane
     float z_limit;  // along the axis; nothing farther is seen; infinity: no such limit
 };
 
