@@ -90,7 +90,8 @@ struct JoinedBvh {
     std::uint32_t first_instance_position = 0;
     std::uint32_t max_stack = 1;  ///< of a walk through both levels
 };
-/// `triangle_counts`: input triangles of baked, then of each mesh.
+/// `triangle_counts`: input triangles of baked, then of each mesh. Throws InputError, with the numbers, where
+/// nodes or positions of all trees are more than kBvhMostTriangles.
 JoinedBvh joinLevels(const TwoLevelBvh& tree, std::span<const std::uint32_t> triangle_counts);
 
 }  // namespace licht

@@ -1,7 +1,10 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "licht/bvh/encode_node.h"
 #include "licht/bvh/instances.h"
+#include "licht/core/error.h"
 
 namespace licht {
 namespace {
@@ -71,6 +74,22 @@ public:
     JoinedBvh joined;
 };
 
+/// Nodes and positions have numbers of three bytes.
+void requireCounts(const TwoLevelBvh& tree, const Bvh& top) {
+    // Every instance has a node of its own; above both levels there are three.
+    std::uint64_t nodes = 3 + tree.baked.nodes.size() + top.nodes.size() + tree.top_ids.size();
+    std::uint64_t positions = tree.baked.triangle_ids.size() + tree.top_ids.size();
+    for (const Bvh& mesh : tree.meshes) {
+        nodes += mesh.nodes.size();
+        positions += mesh.triangle_ids.size();
+    }
+    if (nodes > kBvhMostTriangles || positions > kBvhMostTriangles)
+        throw InputError(
+            fmt::format("the scene's tree has {} nodes and {} triangles and instances, at most {} "
+                        "of each can be traced",
+                        nodes, positions, kBvhMostTriangles));
+}
+
 }  // namespace
 
 JoinedBvh joinLevels(const TwoLevelBvh& tree, std::span<const std::uint32_t> triangle_counts) {
@@ -84,6 +103,7 @@ JoinedBvh joinLevels(const TwoLevelBvh& tree, std::span<const std::uint32_t> tri
     }
     Bvh top;
     collapse(tree.top, top);
+    requireCounts(tree, top);
 
     Joiner joiner;
     JoinedBvh& joined = joiner.joined;

@@ -17,4 +17,11 @@ public:
     using std::runtime_error::runtime_error;
 };
 
+/// The device does not answer. Nothing of it can be freed, and leaving the usual way could wait for it: the
+/// program should say so and end at once (std::_Exit).
+class HungDeviceError : public DeviceError {
+public:
+    using DeviceError::DeviceError;
+};
+
 }  // namespace licht

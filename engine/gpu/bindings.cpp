@@ -206,7 +206,7 @@ Bindings& Bindings::operator=(Bindings&& other) noexcept {
 
 Bindings::~Bindings() {
     if (pool_ != VK_NULL_HANDLE) {
-        vkDestroyDescriptorPool(device_->handle(), pool_, nullptr);
+        vkDestroyDescriptorPool(device_->handle(), device_->unlessGivenUp(pool_), nullptr);
     }
 }
 

@@ -38,6 +38,11 @@ private:
     std::uint32_t pass_;
 };
 
+std::uint64_t nanoseconds(double seconds) {
+    constexpr double kNanoseconds = 1e9;
+    return static_cast<std::uint64_t>(std::max(seconds, 0.0) * kNanoseconds);
+}
+
 }  // namespace
 
 Commands::Commands(Device& device) : device_(device) {
@@ -78,16 +83,16 @@ void Commands::create() {
 }
 
 void Commands::destroy() noexcept {
-    vkDestroyQueryPool(device_.handle(), queries_, nullptr);
-    vkDestroyFence(device_.handle(), fence_, nullptr);
-    vkDestroyCommandPool(device_.handle(), pool_, nullptr);
+    vkDestroyQueryPool(device_.handle(), device_.unlessGivenUp(queries_), nullptr);
+    vkDestroyFence(device_.handle(), device_.unlessGivenUp(fence_), nullptr);
+    vkDestroyCommandPool(device_.handle(), device_.unlessGivenUp(pool_), nullptr);
 }
 
 Commands::~Commands() {
-    if (pending_) {
-        // A lost device answers too, and nothing more can be done about it here.
-        vkWaitForFences(device_.handle(), 1, &fence_, VK_TRUE, UINT64_MAX);
-    }
+    // A lost device answers too, and nothing more can be done about it here; one that does not is given up.
+    if (pending_ && !device_.givenUp() &&
+        vkWaitForFences(device_.handle(), 1, &fence_, VK_TRUE, nanoseconds(kLongestWait)) == VK_TIMEOUT)
+        device_.giveUp();
     destroy();
 }
 
@@ -146,11 +151,12 @@ void Commands::wait(double timeout_seconds) {
     if (!pending_) {
         return;
     }
-    constexpr double kNanoseconds = 1e9;
-    const auto timeout = static_cast<std::uint64_t>(std::max(timeout_seconds, 0.0) * kNanoseconds);
-    const VkResult result = vkWaitForFences(device_.handle(), 1, &fence_, VK_TRUE, timeout);
+    const VkResult result = device_.givenUp() ? VK_TIMEOUT
+                                              : vkWaitForFences(device_.handle(), 1, &fence_, VK_TRUE,
+                                                                nanoseconds(timeout_seconds));
     if (result == VK_TIMEOUT) {
-        throw DeviceError(fmt::format("the device did not finish within {} seconds", timeout_seconds));
+        device_.giveUp();
+        throw HungDeviceError(fmt::format("the device did not finish within {} seconds", timeout_seconds));
     }
     check(result, "waiting for the device");
     check(vkResetFences(device_.handle(), 1, &fence_), "resetting a fence");

@@ -43,6 +43,9 @@ struct PassTime {
     std::uint64_t count = 0;
 };
 
+/// Seconds after which a device is taken for hung.
+inline constexpr double kLongestWait = 600.0;
+
 /// One command buffer with its fence and timers. Frames in flight are several of these used in turn; they are
 /// submitted in the order in which they were recorded, because the state of a resource is followed while
 /// recording. The host may write a mapped buffer whenever no submission that uses it is running; that needs
@@ -102,9 +105,9 @@ public:
     /// Ends recording and submits. The semaphores are for presentation, null otherwise: transfers and colour
     /// output wait for `wait`.
     void submit(VkSemaphore wait = VK_NULL_HANDLE, VkSemaphore signal = VK_NULL_HANDLE);
-    /// Blocks until the submission is done; at most `timeout_seconds`, then throws DeviceError. Collects the
-    /// timers.
-    void wait(double timeout_seconds = 600.0);
+    /// Blocks until the submission is done; at most `timeout_seconds`, then gives the device up and throws
+    /// HungDeviceError. Collects the timers.
+    void wait(double timeout_seconds = kLongestWait);
     /// True when nothing submitted is still running.
     [[nodiscard]] bool done() const;
 

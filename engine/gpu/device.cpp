@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 #include <cstdio>
 #include <cstdlib>
@@ -10,6 +11,7 @@
 #include "device_select.h"
 #include "instance.h"
 #include "licht/core/error.h"
+#include "licht/core/memory.h"
 
 namespace licht::gpu {
 namespace {
@@ -108,9 +110,17 @@ void Device::createInstance(const DeviceOptions& options) {
 }
 
 void Device::createDevice(bool presents) {
-    VkPhysicalDeviceProperties properties{};
-    vkGetPhysicalDeviceProperties(physical_device_, &properties);
+    VkPhysicalDeviceMaintenance3Properties largest{};
+    largest.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES;
+    VkPhysicalDeviceProperties2 asked{};
+    asked.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
+    asked.pNext = &largest;
+    vkGetPhysicalDeviceProperties2(physical_device_, &asked);
+    const VkPhysicalDeviceProperties& properties = asked.properties;
     limits_ = properties.limits;
+    largest_allocation_ = largest.maxMemoryAllocationSize;
+    shares_memory_ = properties.deviceType != VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU &&
+                     properties.deviceType != VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU;
     vkGetPhysicalDeviceMemoryProperties(physical_device_, &memory_properties_);
     std::uint32_t count = 0;
     vkGetPhysicalDeviceQueueFamilyProperties(physical_device_, &count, nullptr);
@@ -144,6 +154,7 @@ void Device::createDevice(bool presents) {
 }
 
 Device::~Device() {
+    if (given_up_) return;
     if (device_ != VK_NULL_HANDLE) {
         vkDeviceWaitIdle(device_);
         vkDestroyPipelineCache(device_, pipeline_cache_, nullptr);
@@ -199,9 +210,24 @@ VkDeviceMemory Device::allocate(const VkMemoryRequirements& requirements, VkMemo
     return memory;
 }
 
+void Device::requireMemory(double bytes, std::string_view what) const {
+    if (shares_memory_) {
+        licht::requireMemory(bytes, what);
+        return;
+    }
+    std::uint64_t largest = 0;
+    for (std::uint32_t i = 0; i < memory_properties_.memoryHeapCount; ++i)
+        if ((memory_properties_.memoryHeaps[i].flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT) != 0)
+            largest = std::max<std::uint64_t>(largest, memory_properties_.memoryHeaps[i].size);
+    if (bytes + static_cast<double>(device_bytes_) > static_cast<double>(largest))
+        throw InputError(fmt::format(
+            "{} about {}, and '{}' has {}, of which {} are in use", what, bytesInWords(bytes), report_.name,
+            bytesInWords(static_cast<double>(largest)), bytesInWords(static_cast<double>(device_bytes_))));
+}
+
 void Device::release(VkDeviceMemory memory, VkDeviceSize size) {
     if (memory != VK_NULL_HANDLE) {
-        vkFreeMemory(device_, memory, nullptr);
+        vkFreeMemory(device_, unlessGivenUp(memory), nullptr);
         device_bytes_ -= size;
     }
 }

@@ -74,6 +74,11 @@ public:
                                           VkMemoryPropertyFlags wanted, VkMemoryPropertyFlags preferred,
                                           std::string_view name);
     void release(VkDeviceMemory memory, VkDeviceSize size);
+    /// Throws InputError where so many bytes more, on the device, will not do: by licht::requireMemory()
+    /// where it shares the host's memory, else by what its largest heap has left.
+    void requireMemory(double bytes, std::string_view what) const;
+    /// Bytes of one buffer or image at most.
+    [[nodiscard]] std::uint64_t largestAllocation() const { return largest_allocation_; }
     /// Bytes of device memory held now, and the most ever held.
     [[nodiscard]] std::uint64_t deviceBytes() const { return device_bytes_; }
     [[nodiscard]] std::uint64_t devicePeakBytes() const { return device_peak_bytes_; }
@@ -96,11 +101,23 @@ public:
 
     void waitIdle() const;
 
+    /// A wait was in vain: what the device may still work on is never freed, and no more is waited for it.
+    void giveUp() { given_up_ = true; }
+    [[nodiscard]] bool givenUp() const { return given_up_; }
+    /// What is to be destroyed: the handle, or null, for which Vulkan does nothing.
+    template <typename Handle>
+    [[nodiscard]] Handle unlessGivenUp(Handle handle) const {
+        return given_up_ ? Handle(VK_NULL_HANDLE) : handle;
+    }
+
 private:
     struct Messages;
     Device();
     void createInstance(const DeviceOptions& options);
     void createDevice(bool presents);
+    bool given_up_ = false;
+    std::uint64_t largest_allocation_ = 0;
+    bool shares_memory_ = true;
     VkInstance instance_ = VK_NULL_HANDLE;
     VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
     VkSurfaceKHR surface_ = VK_NULL_HANDLE;

@@ -26,7 +26,7 @@ public:
     }
     ShaderModule(const ShaderModule&) = delete;
     ShaderModule& operator=(const ShaderModule&) = delete;
-    ~ShaderModule() { vkDestroyShaderModule(device_.handle(), module_, nullptr); }
+    ~ShaderModule() { vkDestroyShaderModule(device_.handle(), device_.unlessGivenUp(module_), nullptr); }
     [[nodiscard]] VkShaderModule handle() const { return module_; }
 
 private:
@@ -286,9 +286,9 @@ Program::~Program() {
 
 void Program::destroy() noexcept {
     if (device_ != nullptr) {
-        vkDestroyPipeline(device_->handle(), pipeline_, nullptr);
-        vkDestroyPipelineLayout(device_->handle(), layout_, nullptr);
-        vkDestroyDescriptorSetLayout(device_->handle(), set_layout_, nullptr);
+        vkDestroyPipeline(device_->handle(), device_->unlessGivenUp(pipeline_), nullptr);
+        vkDestroyPipelineLayout(device_->handle(), device_->unlessGivenUp(layout_), nullptr);
+        vkDestroyDescriptorSetLayout(device_->handle(), device_->unlessGivenUp(set_layout_), nullptr);
     }
 }
 

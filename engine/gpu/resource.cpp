@@ -8,6 +8,7 @@
 
 #include "licht/core/error.h"
 #include "licht/gpu/commands.h"
+#include "licht/gpu/pieces.h"
 
 namespace licht::gpu {
 namespace {
@@ -122,7 +123,7 @@ Buffer::~Buffer() {
 
 void Buffer::destroy() noexcept {
     if (tracked_ != nullptr) {
-        vkDestroyBuffer(device_->handle(), tracked_->buffer, nullptr);
+        vkDestroyBuffer(device_->handle(), device_->unlessGivenUp(tracked_->buffer), nullptr);
         device_->release(memory_, allocated_);
     }
 }
@@ -134,18 +135,20 @@ Buffer uploadBuffer(Device& device, std::string name, std::span<const std::byte>
     if (bytes.empty()) {
         return buffer;
     }
-    const Buffer staging(device, "staging for " + buffer.name(), bytes.size(),
+    const Buffer staging(device, "staging for " + buffer.name(), largestPiece(bytes.size()),
                          VK_BUFFER_USAGE_TRANSFER_SRC_BIT, Memory::host_write);
-    std::memcpy(staging.mapped(), bytes.data(), bytes.size());
     Commands commands(device);
-    commands.begin();
-    commands.pass("upload", {{&staging, Access::transfer_read}, {&buffer, Access::transfer_write}},
-                  [&](VkCommandBuffer recording) {
-                      const VkBufferCopy copy{0, 0, bytes.size()};
-                      vkCmdCopyBuffer(recording, staging.handle(), buffer.handle(), 1, &copy);
-                  });
-    commands.submit();
-    commands.wait();
+    forEachPiece(bytes.size(), [&](std::size_t first, std::size_t count) {
+        std::memcpy(staging.mapped(), bytes.data() + first, count);
+        commands.begin();
+        commands.pass("upload", {{&staging, Access::transfer_read}, {&buffer, Access::transfer_write}},
+                      [&](VkCommandBuffer recording) {
+                          const VkBufferCopy copy{0, first, count};
+                          vkCmdCopyBuffer(recording, staging.handle(), buffer.handle(), 1, &copy);
+                      });
+        commands.submit();
+        commands.wait();
+    });
     return buffer;
 }
 
@@ -179,7 +182,7 @@ TexelView& TexelView::operator=(TexelView&& other) noexcept {
 
 TexelView::~TexelView() {
     if (view_ != VK_NULL_HANDLE) {
-        vkDestroyBufferView(device_->handle(), view_, nullptr);
+        vkDestroyBufferView(device_->handle(), device_->unlessGivenUp(view_), nullptr);
     }
 }
 
@@ -265,8 +268,8 @@ Image::~Image() {
 
 void Image::destroy() noexcept {
     if (tracked_ != nullptr) {
-        vkDestroyImageView(device_->handle(), view_, nullptr);
-        vkDestroyImage(device_->handle(), tracked_->image, nullptr);
+        vkDestroyImageView(device_->handle(), device_->unlessGivenUp(view_), nullptr);
+        vkDestroyImage(device_->handle(), device_->unlessGivenUp(tracked_->image), nullptr);
         device_->release(memory_, allocated_);
     }
 }
@@ -296,7 +299,7 @@ Sampler& Sampler::operator=(Sampler&& other) noexcept {
 
 Sampler::~Sampler() {
     if (sampler_ != VK_NULL_HANDLE) {
-        vkDestroySampler(device_->handle(), sampler_, nullptr);
+        vkDestroySampler(device_->handle(), device_->unlessGivenUp(sampler_), nullptr);
     }
 }
 

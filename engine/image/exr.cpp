@@ -18,6 +18,7 @@
 
 #include "licht/core/error.h"
 #include "licht/core/file.h"
+#include "licht/core/memory.h"
 
 namespace licht {
 namespace {
@@ -58,6 +59,8 @@ ExrPicture describe(const Imf::Header& header, const std::filesystem::path& path
     const std::int64_t height = std::int64_t{window.max.y} - window.min.y + 1;
     if (width < 1 || height < 1 || width > kMaxImageSide || height > kMaxImageSide)
         refuse(path, fmt::format("its size of {}x{} is not within 1..{}", width, height, kMaxImageSide));
+    if (width * height > kMaxImageTexels)
+        refuse(path, fmt::format("its size of {}x{} is more than 2^28 texels", width, height));
     picture.width = static_cast<int>(width);
     picture.height = static_cast<int>(height);
     const Imath::Box2i& display = header.displayWindow();
@@ -148,6 +151,10 @@ ExrPicture readExr(const std::filesystem::path& path) {
         Imf::InputFile file(path.c_str());
         ExrPicture picture = describe(file.header(), path);
         if (!file.isComplete()) refuse(path, "is truncated");
+        requireMemory(static_cast<double>(sizeof(float)) * picture.width * picture.height *
+                          static_cast<double>(picture.channels.size()),
+                      fmt::format("{}: its {} channels of {}x{} take", path.string(), picture.channels.size(),
+                                  picture.width, picture.height));
         readLines(file, picture);
         return picture;
     } catch (const InputError&) {

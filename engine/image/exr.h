@@ -44,9 +44,11 @@ struct ExrPicture {
 void writeExr(const std::filesystem::path& path, const ExrPicture& picture);
 
 /// Reads every channel of a flat single-part file as float. Throws InputError naming file and reason:
-/// truncated, deep, multi-part, larger than kMaxImageSide a side, chroma-subsampled.
+/// truncated, deep, multi-part, larger than kMaxImageSide a side or kMaxImageTexels, chroma-subsampled, or
+/// more than memory holds.
 ExrPicture readExr(const std::filesystem::path& path);
 
 inline constexpr int kMaxImageSide = 32768;
+inline constexpr std::int64_t kMaxImageTexels = std::int64_t{1} << 28U;
 
 }  // namespace licht

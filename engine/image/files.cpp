@@ -17,13 +17,12 @@
 
 #include "licht/core/error.h"
 #include "licht/core/file.h"
+#include "licht/core/memory.h"
 #include "licht/image/exr.h"
 #include "licht/image/hdr_header.h"
 
 namespace licht {
 namespace {
-
-constexpr std::int64_t kMaxTexels = std::int64_t{1} << 28U;
 
 [[noreturn]] void refuse(const std::string& name, const std::string& why) {
     throw InputError(fmt::format("{}: {}", name, why));
@@ -99,7 +98,7 @@ Size requireSaneSize(std::span<const std::byte> bytes, const std::string& name) 
     if (size.width < 1 || size.height < 1 || size.width > kMaxImageSide || size.height > kMaxImageSide)
         refuse(name,
                fmt::format("its size of {}x{} is not within 1..{}", size.width, size.height, kMaxImageSide));
-    if (std::int64_t{size.width} * size.height > kMaxTexels)
+    if (std::int64_t{size.width} * size.height > kMaxImageTexels)
         refuse(name, fmt::format("its size of {}x{} is more than 2^28 texels", size.width, size.height));
     return size;
 }
@@ -149,6 +148,9 @@ Image readHdr(const std::filesystem::path& path) {
         refuse(path.string(), "is no Radiance HDR file");
     const HdrHeader header = readHdrHeader(bytes, path.string());
     const Size size = requireSaneSize(bytes, path.string());
+    // As decoded, and as a map.
+    requireMemory(2.0 * 3.0 * sizeof(float) * size.width * size.height,
+                  fmt::format("{}: its {}x{} texels take", path.string(), size.width, size.height));
     const auto texels = decode<float>(stbi_loadf_from_callbacks, bytes, path.string(), 3);
     Image map(size.width, size.height, 3);
     std::copy_n(texels.get(), map.texels.size(), map.texels.begin());
@@ -170,9 +172,12 @@ Image readExrMap(const std::filesystem::path& path) {
     if (std::ranges::count(planes, nullptr) != 0)
         refuse(path.string(), "has no channels R, G, B and no channel Y");
     const PictureWindow& display = picture.display;
-    if (std::int64_t{display.width} * display.height > kMaxTexels)
+    if (std::int64_t{display.width} * display.height > kMaxImageTexels)
         refuse(path.string(), fmt::format("its display window of {}x{} is more than 2^28 texels",
                                           display.width, display.height));
+    requireMemory(
+        3.0 * sizeof(float) * display.width * display.height,
+        fmt::format("{}: its display window of {}x{} takes", path.string(), display.width, display.height));
     Image map(display.width, display.height, 3);
     for (int y = 0; y < picture.height; ++y) {
         for (int x = 0; x < picture.width; ++x) {
@@ -279,21 +284,25 @@ Image readRadianceMap(const std::filesystem::path& path, std::size_t* replaced) 
     return map;
 }
 
+ImageShape shapeOfImage(std::span<const std::byte> bytes, const std::string& name) {
+    if (!isPngOrJpeg(bytes)) refuse(name, "is neither PNG nor JPEG");
+    const Size size = requireSaneSize(bytes, name);
+    const bool wide = stbi_is_16_bit_from_memory(stbBytes(bytes), static_cast<int>(bytes.size())) != 0;
+    return {size.width, size.height, wide ? 16 : 8};
+}
+
 EncodedImage decodeImage(std::span<const std::byte> bytes, const std::string& name) {
     static_assert(std::endian::native == std::endian::little,
                   "16-bit texels are passed on as stb_image stores them");
-    if (!isPngOrJpeg(bytes)) refuse(name, "is neither PNG nor JPEG");
-    const Size size = requireSaneSize(bytes, name);
+    const ImageShape shape = shapeOfImage(bytes, name);
     EncodedImage image;
-    image.width = size.width;
-    image.height = size.height;
-    image.bits = stbi_is_16_bit_from_memory(stbBytes(bytes), static_cast<int>(bytes.size())) != 0 ? 16 : 8;
+    image.width = shape.width;
+    image.height = shape.height;
+    image.bits = shape.bits;
     // Memory is taken after decoding: a small file that promises a huge picture fails before that.
-    const auto copy = [&image](const void* texels) {
+    const auto copy = [&](const void* texels) {
         const auto* first = static_cast<const std::uint8_t*>(texels);
-        const auto texel_count =
-            static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
-        image.bytes.assign(first, first + texel_count * static_cast<std::size_t>(4 * image.bits / 8));
+        image.bytes.assign(first, first + shape.bytes());
     };
     if (image.bits == 16)
         copy(decode<stbi_us>(stbi_load_16_from_callbacks, bytes, name, 4).get());

@@ -1,5 +1,7 @@
 #include "licht/light/light_table.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -9,6 +11,7 @@
 #include <utility>
 
 #include "licht/colour/transfer.h"
+#include "licht/core/error.h"
 #include "licht/light/alias_table.h"
 #include "licht/light/light_tree.h"
 #include "licht/scene/emitter_shapes.h"
@@ -73,8 +76,22 @@ void addSphere(LightTable& table, std::vector<double>& weights, LightRecord ligh
     }
 }
 
+// Before any record is made. One more is the sky.
+void requireCountable(const Scene& scene, const std::vector<double>& strengths) {
+    std::uint64_t lights = scene.lights.size() + 1;
+    for (const Instance& instance : scene.instances) {
+        const Mesh& mesh = scene.meshes[instance.mesh];
+        if (strengths[mesh.material] > 0.0) lights += mesh.triangles.size();
+    }
+    if (lights > kMostLights)
+        throw InputError(fmt::format(
+            "the scene has {} lights, counting each triangle that shines, and at most {} can be picked from",
+            lights, kMostLights));
+}
+
 void addShapes(const Scene& scene, bool spheres, LightTable& table, std::vector<double>& weights) {
     const std::vector<double> strengths = emittedStrength(scene);
+    requireCountable(scene, strengths);
     for (uint i = 0; i < scene.instances.size(); ++i) {
         const Instance& instance = scene.instances[i];
         const Mesh& mesh = scene.meshes[instance.mesh];

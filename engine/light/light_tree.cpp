@@ -278,7 +278,7 @@ double importance(const LightChildRecord& c, const ShadingPoint& at) {
 }  // namespace
 
 LightTree buildLightTree(std::span<const LightBound> lights) {
-    assert(lights.size() >= 2 && lights.size() <= std::size_t{1} << 24U);
+    assert(lights.size() >= 2 && lights.size() <= kMostLights);
     return Builder(lights).run();
 }
 

@@ -26,7 +26,11 @@ struct LightTree {
     std::vector<uint> trails;                ///< per light: bits 2k and 2k + 1 choose the child at level k
 };
 
-/// At least two lights, at most 2^24 (else the trails do not fit).
+/// Lights of a scene, counting each triangle that shines: so many can be told apart by a number that floats
+/// pick, and trails through the tree fit.
+inline constexpr std::size_t kMostLights = std::size_t{1} << 24U;
+
+/// At least two lights, at most kMostLights.
 LightTree buildLightTree(std::span<const LightBound> lights);
 
 /// What the choice among lights knows of the place that is to be lit (shaders/light/shading_point.glsl);

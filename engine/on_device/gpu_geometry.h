@@ -26,13 +26,15 @@ public:
 
     void addTo(std::vector<gpu::BoundResource>& resources, const gpu::Buffer& none) const;
     void addTo(std::vector<FetchedRecords>& records) const;
+    void addTo(gpu::SpecConstants& constants) const;
     void describe(FrameRecord& frame) const { frame.extra_uv_sets = extra_uv_sets_; }
-    /// One per baked instance, one per group of instances of a mesh.
+    /// One per baked instance, or of very many one per row of them; one per group of instances of a mesh.
     [[nodiscard]] const std::vector<Draw>& draws() const { return draws_; }
 
 private:
     gpu::Buffer vertices_, triangle_indices_, instances_, tangents_, colors_, extra_uvs_;
     std::vector<Draw> draws_;
+    uint merged_instances_ = 0;  ///< that a draw may hold many of; 0: none does
     uint extra_uv_sets_ = 0;
 };
 

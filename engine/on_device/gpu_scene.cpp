@@ -1,6 +1,7 @@
 #include "licht/on_device/gpu_scene.h"
 
 #include "licht/on_device/flat_geometry.h"
+#include "licht/on_device/scene_size.h"
 #include "licht/on_device/uploads.h"
 #include "licht/shared/constants.h"
 #include "licht/shared/effects.h"
@@ -11,6 +12,7 @@ GpuScene::GpuScene(gpu::Device& device, const Scene& scene, const Effects& effec
     : none_(device, "none", 256, kFetchedUsage, gpu::Memory::device), effects_(effects) {
     Uploads uploads(device);
     const InstanceOrder order = orderInstances(scene, effects);
+    requireRoom(device, sizeOnDevice(scene, order), effects);
     lights_ = GpuLights(uploads, scene, effects, order,
                         {options.direct, options.lights, options.environment_sampling});
     const std::uint64_t before = uploads.bytes();
@@ -50,6 +52,7 @@ void GpuScene::describe(FrameRecord& frame) const {
 gpu::SpecConstants GpuScene::constants() const {
     gpu::SpecConstants constants{{kConstantSceneInStorage, records_.inStorage() ? 1U : 0U}};
     effects_.addTo(constants);
+    geometry_.addTo(constants);
     levels_.addTo(constants);
     materials_.addTo(constants);
     textures_.addTo(constants);

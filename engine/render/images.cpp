@@ -49,6 +49,24 @@ std::span<const ImageRow> imageTable() {
     return kWithLayers;
 }
 
+double bytesOfPicture(uvec2 size, const RenderSettings& settings, std::span<const ImageRow> table) {
+    // Film, layers and files as they are made of what is read back: measured, tests/bench/MEASURED.md,
+    // "Memory".
+    constexpr double kHostBytes = 80.0;
+    constexpr double kHostBytesOfImage = 25.0;
+    constexpr double kBytesOfOrder = sizeof(vec4) + 2.0 * sizeof(glm::dvec3);
+    constexpr double kBytesOfRounds = 50.0;
+    double bytes = kHostBytes;
+    for (const ImageRow& row : table) {
+        if (row.lifetime == Lifetime::lent || (row.wanted != nullptr && !row.wanted(settings))) continue;
+        bytes += gpu::texelBytes(row.format) * (row.lifetime == Lifetime::ping_pong ? 2.0 : 1.0);
+        if (row.wanted != nullptr) bytes += kHostBytesOfImage;
+    }
+    if (settings.orders) bytes += kBytesOfOrder * (settings.bounces + 1.0);
+    if (settings.adaptive) bytes += kBytesOfRounds;
+    return bytes * size.x * size.y;
+}
+
 Images::Images(gpu::Device& device, uvec2 size, const RenderSettings& settings,
                std::span<const ImageRow> table)
     : size_(size), nothing_(device, "nothing", {1, 1}, kFloat4, usageOf(Target::none)) {

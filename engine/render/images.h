@@ -33,6 +33,10 @@ struct ImageRow {
 /// All that a renderer can call for, with the images of layers, which follow from theirs.
 std::span<const ImageRow> imageTable();
 
+/// About what a picture takes: its images on the device, and what is made of them on the host. Bytes.
+double bytesOfPicture(uvec2 size, const RenderSettings& settings,
+                      std::span<const ImageRow> table = imageTable());
+
 class Images {
 public:
     /// Those of the table's rows that the settings call for. A texel stands for each of the others, and for

@@ -1,5 +1,7 @@
 #include "licht/render/renderer.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cassert>
@@ -14,6 +16,7 @@
 #include "licht/on_device/gpu_scene.h"
 #include "licht/render/adaptive_rounds.h"
 #include "licht/render/frame.h"
+#include "licht/render/images.h"
 #include "licht/render/in_flight.h"
 #include "licht/render/order_sums.h"
 #include "licht/render/pass_list.h"
@@ -38,11 +41,18 @@ Effects effectsOf(const Scene& scene, const RenderSettings& settings) {
     return effects;
 }
 
+// A size that memory will not do is said before the scene is brought to the device.
+gpu::Device& withRoom(gpu::Device& device, const RenderSettings& settings) {
+    device.requireMemory(bytesOfPicture(settings.size, settings),
+                         fmt::format("a picture of {}x{} takes", settings.size.x, settings.size.y));
+    return device;
+}
+
 }  // namespace
 
 struct Renderer::State {
     State(gpu::Device& d, const Scene& scene, const Camera& c, const RenderSettings& s)
-        : device(d),
+        : device(withRoom(d, s)),
           settings(s),
           camera(c),
           effects(effectsOf(scene, s)),

@@ -8,6 +8,7 @@
 
 #include "licht/scene/gltf_accessor.h"
 #include "licht/scene/gltf_asset.h"
+#include "licht/scene/gltf_budget.h"
 #include "licht/scene/gltf_geometry.h"
 #include "licht/scene/gltf_instancing.h"
 #include "licht/scene/gltf_material.h"
@@ -60,6 +61,7 @@ public:
             asset_.skip(fmt::format("{} animations are not played; the scene is in its rest pose",
                                     asset_.model.animations.size()));
         }
+        materials_.finish();
         scene_.notes = asset_.notes;
         return std::move(scene_);
     }
@@ -203,9 +205,11 @@ std::vector<std::filesystem::path> filesOf(const gltf::Asset& asset, const std::
 
 }  // namespace
 
-Scene loadGltf(const std::filesystem::path& path, std::optional<std::uint32_t> scene_index) {
+Scene loadGltf(const std::filesystem::path& path, const GltfOptions& options) {
     gltf::Asset asset = gltf::readAsset(path);
-    gltf::NodeTree tree = gltf::flattenNodes(asset, scene_index);
+    asset.strict = options.strict;
+    gltf::NodeTree tree = gltf::flattenNodes(asset, options.scene);
+    gltf::requireBudget(asset, tree);
     Scene scene = gltf::SceneBuilder(asset, std::move(tree)).build();
     scene.name = path.stem().string();
     scene.files = filesOf(asset, path);

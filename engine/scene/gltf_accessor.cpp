@@ -10,9 +10,6 @@
 namespace licht::gltf {
 namespace {
 
-/// More elements than this are only believed when a buffer holds them all.
-constexpr std::size_t kMaxImpliedElements = std::size_t{1} << 26U;
-
 std::size_t componentBytes(int type) {
     switch (type) {
         case TINYGLTF_COMPONENT_TYPE_BYTE:
@@ -115,7 +112,7 @@ public:
             asset_.fail(object_,
                         fmt::format("component type {} is not allowed here", accessor_.componentType));
         }
-        if (accessor_.count >= kNone || (accessor_.bufferView < 0 && accessor_.count > kMaxImpliedElements)) {
+        if (accessor_.count >= kNone || (accessor_.bufferView < 0 && accessor_.count > kMostImpliedElements)) {
             asset_.fail(object_, fmt::format("{} elements are too many", accessor_.count));
         }
     }

@@ -11,6 +11,9 @@
 
 namespace licht::gltf {
 
+/// Accessors without bytes of their own (all zero, but for sparse ones) are believed up to so many elements.
+inline constexpr std::size_t kMostImpliedElements = std::size_t{1} << 24U;
+
 /// Elements of the accessor. `object` names who asks, for errors. All throw InputError when the accessor is
 /// damaged or of another shape.
 std::vector<vec2> readVec2(const Asset& asset, int accessor, std::string_view object);

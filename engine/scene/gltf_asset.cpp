@@ -220,7 +220,7 @@ std::span<const std::byte> viewBytes(const Asset& asset, int view, std::string_v
 
 Asset readAsset(const std::filesystem::path& path) {
     const std::vector<std::byte> bytes = readFile(path);
-    Asset asset{path.string(), AssetFolder(path), {}, {}, {}, {}, {}, {}};
+    Asset asset{path.string(), AssetFolder(path), {}, {}, {}, {}, false, {}, {}};
     const Container container = splitContainer(bytes, asset.file);
     Json document = parseJson(container.json, asset.file);
     checkVersion(document, asset.file);

@@ -34,6 +34,7 @@ struct Asset {
     std::vector<std::vector<std::byte>> buffers;
     std::vector<std::string> buffer_uris;
     std::vector<ImageSource> images;
+    bool strict = false;  ///< what could be read without is an error
     std::vector<SceneNote> notes;
     std::set<std::string> noted;
 

@@ -10,6 +10,9 @@ namespace licht::gltf {
 namespace {
 
 constexpr const char* kExtension = "EXT_mesh_gpu_instancing";
+constexpr const char* kTranslation = "TRANSLATION";
+constexpr const char* kRotation = "ROTATION";
+constexpr const char* kScale = "SCALE";
 
 /// Reads the attributes of one node; all have the length of the first.
 class AttributeReader {
@@ -75,9 +78,9 @@ std::optional<std::vector<glm::dmat4>> readInstances(Asset& asset, int node) {
         asset.fail(object, fmt::format("{} has no attributes", kExtension));
     }
     AttributeReader reader(asset, extension->second.Get("attributes"), object);
-    const std::vector<vec3> translations = reader.read<vec3>("TRANSLATION", false, readVec3);
-    const std::vector<vec4> rotations = reader.read<vec4>("ROTATION", true, readVec4);
-    const std::vector<vec3> scales = reader.read<vec3>("SCALE", false, readVec3);
+    const std::vector<vec3> translations = reader.read<vec3>(kTranslation, false, readVec3);
+    const std::vector<vec4> rotations = reader.read<vec4>(kRotation, true, readVec4);
+    const std::vector<vec3> scales = reader.read<vec3>(kScale, false, readVec3);
 
     std::vector<glm::dmat4> transforms(reader.count(), glm::dmat4(1.0));
     for (std::size_t i = 0; i < transforms.size(); ++i) {
@@ -104,6 +107,19 @@ std::optional<std::vector<glm::dmat4>> readInstances(Asset& asset, int node) {
         }
     }
     return transforms;
+}
+
+std::optional<std::vector<int>> instanceAccessors(const Asset& asset, int node) {
+    const tinygltf::Node& source = asset.model.nodes[static_cast<std::size_t>(node)];
+    const auto extension = source.extensions.find(kExtension);
+    if (extension == source.extensions.end()) return std::nullopt;
+    std::vector<int> accessors;
+    if (extension->second.IsObject() && extension->second.Get("attributes").IsObject())
+        for (const char* name : {kTranslation, kRotation, kScale}) {
+            const tinygltf::Value& index = extension->second.Get("attributes").Get(name);
+            if (index.IsInt()) accessors.push_back(index.GetNumberAsInt());
+        }
+    return accessors;
 }
 
 }  // namespace licht::gltf

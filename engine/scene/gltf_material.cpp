@@ -74,6 +74,15 @@ std::uint32_t MaterialLoader::load(int material, const std::string& object) {
     return index;
 }
 
+void MaterialLoader::finish() {
+    const std::vector<bool> broken = textures_.decodeAll();
+    for (Material& material : scene_.materials)
+        for (const SlotInfo& info : kSlotTable) {
+            TextureSlot& slot = material.slots[info.kind];
+            if (slot.present() && broken[slot.texture] && !info.srgb) slot = {};
+        }
+}
+
 float MaterialLoader::clamped(double value, double lower, double upper, const std::string& object,
                               std::string_view what) {
     if (value >= lower && value <= upper) {

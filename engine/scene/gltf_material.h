@@ -1,27 +1,14 @@
 #pragma once
-// Materials, the texture slots they read, and the pictures behind these.
+// Materials and the texture slots they read.
 #include <cstdint>
 #include <map>
 #include <string>
 
 #include "licht/scene/gltf_asset.h"
+#include "licht/scene/gltf_image.h"
 #include "licht/scene/scene.h"
 
 namespace licht::gltf {
-
-/// Turns images into textures of the scene, each one once and only when a material asks for it.
-class TextureLoader {
-public:
-    TextureLoader(Asset& asset, Scene& scene) : asset_(asset), scene_(scene) {}
-
-    /// Index into Scene::textures. Throws InputError naming the image when its file is missing or damaged.
-    std::uint32_t load(int image, const std::string& object);
-
-private:
-    Asset& asset_;
-    Scene& scene_;
-    std::map<int, std::uint32_t> loaded_;
-};
 
 /// Turns materials into materials of the scene, each one once and only when a primitive asks for it.
 class MaterialLoader {
@@ -30,6 +17,10 @@ public:
 
     /// Index into Scene::materials; -1 is glTF's default material.
     std::uint32_t load(int material, const std::string& object);
+
+    /// Once all are loaded: decodes the textures. Where one cannot be read, slots of colours show its stand-in
+    /// and the others go without.
+    void finish();
 
 private:
     Material convert(const tinygltf::Material& source, const std::string& object);

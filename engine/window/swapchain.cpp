@@ -48,10 +48,12 @@ Swapchain::Swapchain(gpu::Device& device, const Window& window)
 Swapchain::Frame::Frame(gpu::Device& device) : commands(device), acquired(makeSemaphore(device)) {}
 
 Swapchain::Frame::~Frame() {
-    vkDestroySemaphore(commands.device().handle(), acquired, nullptr);
+    const gpu::Device& device = commands.device();
+    vkDestroySemaphore(device.handle(), device.unlessGivenUp(acquired), nullptr);
 }
 
 Swapchain::~Swapchain() {
+    if (device_.givenUp()) return;
     vkDeviceWaitIdle(device_.handle());
     destroyTargets();
     vkDestroySwapchainKHR(device_.handle(), swapchain_, nullptr);

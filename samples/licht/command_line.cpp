@@ -8,6 +8,7 @@
 #include <span>
 
 #include "licht/core/error.h"
+#include "licht/core/memory.h"
 #include "licht/settings/settings_table.h"
 #include "samples/licht/text.h"
 #include "samples/scenes/builtin.h"
@@ -42,6 +43,18 @@ void addTriangles(CLI::App& app, SceneRequest& source, const std::string& defaul
              });
 }
 
+void addLoading(CLI::App& app, SceneRequest& source) {
+    app.add_flag("--strict", source.strict,
+                 "A texture that is missing or damaged is an error (default: a warning, and magenta checks)");
+}
+
+/// Of the whole process, so it counts from where it is read.
+void addMemoryLimit(CLI::App& app) {
+    addValue(app, "--memory-limit", "SIZE",
+             "The most memory to take, as in 500M, 8G (default: most of what is free)",
+             [](std::string_view option, std::string_view text) { limitMemory(parseMemory(option, text)); });
+}
+
 void addDevice(CLI::App& app, std::string& device) {
     addValue(app, "--device", "NAME|INDEX",
              "Vulkan device, see 'licht devices' (default: the best usable one)",
@@ -54,6 +67,7 @@ void addSource(CLI::App& app, SceneRequest& source) {
              "Camera of the scene (default: its first, or one that frames everything)",
              [&source](std::string_view, std::string_view text) { source.camera = text; });
     addTriangles(app, source, "");
+    addLoading(app, source);
     CLI::Option* environment =
         addValue(app, "--environment", "FILE", "Latitude-longitude sky, .hdr or .exr, in cd/m^2",
                  [&source](std::string_view, std::string_view text) { source.environment = text; });
@@ -147,6 +161,7 @@ void addBench(CLI::App& app, BenchOptions& options) {
     options.source.scene = "terrain";
     app.add_option("SCENE", options.source.scene, sceneHelp() + "\n(default: terrain)")->type_name("");
     addTriangles(app, options.source, fmt::format(" (default: {})", kDefaultBenchTriangles));
+    addLoading(app, options.source);
     addValue(app, "--camera", "NAME|INDEX", "Camera of the scene, as for render",
              [&options](std::string_view, std::string_view text) { options.source.camera = text; });
     addValue(app, "--size", "WxH", "Pixels, one path each (default: as for render)",
@@ -244,7 +259,8 @@ Command parseCommandLine(int argument_count, const char* const* arguments) {
     CLI::App* view_app = app.add_subcommand("view", "Look at a scene in a window");
     addView(*view_app, view);
     CLI::App* info_app = app.add_subcommand("info", "Say what is in a scene and which effects it calls for");
-    info_app->add_option("SCENE", info.scene, sceneHelp())->required()->type_name("");
+    info_app->add_option("SCENE", info.source.scene, sceneHelp())->required()->type_name("");
+    addLoading(*info_app, info.source);
     info_app->add_flag("--json", info.json, "As JSON");
     CLI::App* bench_app = app.add_subcommand("bench", "Measure how fast rays find their hits in a scene");
     addBench(*bench_app, bench);
@@ -253,6 +269,9 @@ Command parseCommandLine(int argument_count, const char* const* arguments) {
     devices_app->add_flag("--json", devices.json, "As JSON");
     CLI::App* compare_app = app.add_subcommand("compare", "Measure how far pictures are from a reference");
     addCompare(*compare_app, compare);
+
+    for (CLI::App* command : {render_app, view_app, info_app, bench_app, compare_app})
+        addMemoryLimit(*command);
 
     std::vector<std::string> words = commandWords(argument_count, arguments);
     const auto commands = app.get_subcommands([](const CLI::App*) { return true; });

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <cstdlib>
 #include <exception>
 #include <new>
 
@@ -49,6 +50,9 @@ int main(int argument_count, char** arguments) {
         return code;
     } catch (const licht::InputError& error) {
         return complain(error.what(), kBadInput);
+    } catch (const licht::HungDeviceError& error) {
+        // What runs at a usual exit may wait for the device without end.
+        std::_Exit(complain(error.what(), kFailed));
     } catch (const std::bad_alloc&) {
         return complain("out of memory", kFailed);
     } catch (const std::exception& error) {

@@ -57,6 +57,21 @@ std::uint64_t parseTriangles(std::string_view option, std::string_view text) {
         fmt::format("a count from {} to {}, as in 250000, 300k or 1M", kFewestTriangles, kMostTriangles));
 }
 
+std::uint64_t parseMemory(std::string_view option, std::string_view text) {
+    constexpr double kLeast = 0x1p24;
+    constexpr double kMost = 0x1p60;
+    std::string_view digits = text.substr(0, text.find_first_of("MGT"));
+    const std::string_view unit = text.substr(digits.size());
+    const auto is = [unit](std::string_view letter) {
+        return unit.starts_with(letter) &&
+               (unit.size() == 1 || unit.substr(1) == "iB" || unit.substr(1) == "B");
+    };
+    const double factor = is("M") ? 0x1p20 : is("G") ? 0x1p30 : is("T") ? 0x1p40 : 0.0;
+    const double bytes = wholeNumber<double>(digits).value_or(0.0) * factor;
+    if (bytes >= kLeast && bytes <= kMost) return static_cast<std::uint64_t>(bytes);
+    refuseValue(option, text, "an amount of memory of at least 16M, as in 500M, 8G");
+}
+
 vec3 parseColour(std::string_view option, std::string_view text) {
     const std::vector<std::string_view> parts = split(text, ',');
     vec3 colour{0.0F};

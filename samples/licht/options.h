@@ -25,6 +25,7 @@ struct SceneRequest {
     std::optional<vec3> background;          ///< cd/m^2, a constant sky; excludes environment
     std::optional<double> sun_angle;         ///< degrees that directional lights fill; none: the scene's own
     std::uint64_t triangles = 0;             ///< of a built-in scene that takes a count; 0: its own
+    bool strict = false;                     ///< images that cannot be read are errors
 };
 
 struct RenderOptions {
@@ -38,7 +39,7 @@ struct RenderOptions {
 };
 
 struct InfoOptions {
-    std::string scene;
+    SceneRequest source;
     bool json = false;
 };
 
@@ -75,6 +76,8 @@ struct ViewOptions {
 
 /// How many triangles: "250000", "300k", "1.5M"; kFewestTriangles to kMostTriangles.
 std::uint64_t parseTriangles(std::string_view option, std::string_view text);
+/// A share of the machine's memory: "500M", "8G", "2.5GiB"; at least 16 MiB.
+std::uint64_t parseMemory(std::string_view option, std::string_view text);
 /// "960x540": each side 1 to kMaxPictureSide, at most kMaxPicturePixels together.
 uvec2 parseSize(std::string_view option, std::string_view text);
 /// "R,G,B": finite, not negative.

@@ -92,7 +92,9 @@ bool takesTriangles(const std::string& source) {
     });
 }
 
-NamedScene loadNamedScene(const std::string& source, std::uint64_t triangles) {
+NamedScene loadNamedScene(const SceneRequest& request) {
+    const std::string& source = request.scene;
+    const std::uint64_t triangles = request.triangles;
     if (triangles > 0 && !takesTriangles(source))
         throw InputError(fmt::format("--triangles: '{}' has triangles of its own; a count is for: {}", source,
                                      scenesThatCount()));
@@ -100,11 +102,11 @@ NamedScene loadNamedScene(const std::string& source, std::uint64_t triangles) {
     const std::filesystem::path path(source);
     const std::string ending = lowerCase(path.extension().string());
     if (ending != ".gltf" && ending != ".glb") refuseScene(source);
-    return {loadGltf(path), path.stem().string(), false};
+    return {loadGltf(path, {.strict = request.strict}), path.stem().string(), false};
 }
 
 NamedScene loadScene(const SceneRequest& request) {
-    NamedScene source = loadNamedScene(request.scene, request.triangles);
+    NamedScene source = loadNamedScene(request);
     Scene& scene = source.scene;
     if (request.environment) {
         std::size_t replaced = 0;

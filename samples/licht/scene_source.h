@@ -11,14 +11,14 @@ namespace licht {
 /// A built-in scene whose triangles can be counted out.
 bool takesTriangles(const std::string& source);
 
-/// A built-in scene or a file, by name; `triangles` as in SceneRequest. Throws InputError when it is neither,
-/// cannot be loaded or takes no count.
+/// A built-in scene or a file, by name, without what the request says of its light. Throws InputError when it
+/// is neither, cannot be loaded or takes no count.
 struct NamedScene {
     Scene scene;
     std::string name;  ///< built-in name, or the file's name without folder and ending
     bool builtin = false;
 };
-NamedScene loadNamedScene(const std::string& source, std::uint64_t triangles = 0);
+NamedScene loadNamedScene(const SceneRequest& request);
 
 /// The scene as asked for, with its sky. A scene in which nothing gives light gets a neutral sky, unless a
 /// sky was asked for; a note says so.

@@ -4,6 +4,7 @@
 // optional feature, and the barycentrics are plain interpolated values.
 #include "camera/camera.glsl"
 #include "bound/scene.glsl"
+#include "shared/constants.h"
 #include "shared/frame.h"
 
 layout(push_constant) uniform Push { SamplePush push; };
@@ -11,10 +12,24 @@ layout(push_constant) uniform Push { SamplePush push; };
 layout(location = 0) out vec2 barycentrics;
 layout(location = 1) flat out uvec2 instance_primitive;
 
+layout(constant_id = kConstantMergedInstances) const uint kMergedInstances = 0u;
+
+// A draw of many baked instances begins with `first`; their triangles stand in a row.
+uint instanceOf(uint first, uint triangle) {
+    if (first >= kMergedInstances) return first;
+    uint end = kMergedInstances;
+    while (end - first > 1u) {
+        uint middle = first + (end - first) / 2u;
+        if (instanceAt(middle).first_triangle <= triangle) first = middle;
+        else end = middle;
+    }
+    return first;
+}
+
 void main() {
     uint triangle = uint(gl_VertexIndex) / 3u;
     uint corner = uint(gl_VertexIndex) % 3u;
-    uint instance = uint(gl_InstanceIndex);
+    uint instance = instanceOf(uint(gl_InstanceIndex), triangle);
     vec3 position = worldPoint(placementOf(instance), vertexAt(triangleIndexAt(gl_VertexIndex)).position);
     barycentrics = vec2(corner == 1u ? 1.0 : 0.0, corner == 2u ? 1.0 : 0.0);
     instance_primitive = uvec2(instance, triangle - instanceAt(instance).first_triangle);

@@ -34,6 +34,7 @@ LICHT_CONSTANT uint kConstantFirstInstancePosition = kConstantBakedInstances + 1
 LICHT_CONSTANT uint kConstantFirstInstanceTexel =
     kConstantFirstInstancePosition + 1u;                                        // added to an instance's position it gives the texel with its root and number
 LICHT_CONSTANT uint kConstantInstanceSlack = kConstantFirstInstanceTexel + 1u;  // the bits of a float
+LICHT_CONSTANT uint kConstantMergedInstances = kConstantInstanceSlack + 1u;     // instances below this number may be drawn many at once
 
 LICHT_SHARED_END
 #endif
