@@ -54,7 +54,6 @@ double bytesOfPicture(uvec2 size, const RenderSettings& settings, std::span<cons
     // "Memory".
     constexpr double kHostBytes = 80.0;
     constexpr double kHostBytesOfImage = 25.0;
-    constexpr double kBytesOfOrder = sizeof(vec4) + 2.0 * sizeof(glm::dvec3);
     constexpr double kBytesOfRounds = 50.0;
     double bytes = kHostBytes;
     for (const ImageRow& row : table) {
@@ -62,7 +61,6 @@ double bytesOfPicture(uvec2 size, const RenderSettings& settings, std::span<cons
         bytes += gpu::texelBytes(row.format) * (row.lifetime == Lifetime::ping_pong ? 2.0 : 1.0);
         if (row.wanted != nullptr) bytes += kHostBytesOfImage;
     }
-    if (settings.orders) bytes += kBytesOfOrder * (settings.bounces + 1.0);
     if (settings.adaptive) bytes += kBytesOfRounds;
     return bytes * size.x * size.y;
 }

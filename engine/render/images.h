@@ -33,7 +33,8 @@ struct ImageRow {
 /// All that a renderer can call for, with the images of layers, which follow from theirs.
 std::span<const ImageRow> imageTable();
 
-/// About what a picture takes: its images on the device, and what is made of them on the host. Bytes.
+/// About what a picture takes: its images on the device, and what is made of them on the host; without layers
+/// of orders, which ask for themselves. Bytes.
 double bytesOfPicture(uvec2 size, const RenderSettings& settings,
                       std::span<const ImageRow> table = imageTable());
 

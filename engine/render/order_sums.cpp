@@ -56,6 +56,11 @@ OrderSums::OrderSums(gpu::Device& device, uvec2 size, std::uint32_t orders, bool
       lost_(lost),
       columns_(columnsOf(device, size, tilesOf(orders, lost))),
       sums_(tilesOf(orders, lost)) {
+    // On the device, as sums, and as they are stored.
+    constexpr double kBytes = sizeof(vec4) + 2.0 * sizeof(glm::dvec3);
+    device.requireMemory(
+        kBytes * static_cast<double>(sums_.size()) * size.x * size.y,
+        fmt::format("{} layers of light by bounces at {}x{} take", sums_.size(), size.x, size.y));
     const std::uint32_t rows = (tilesOf(orders, lost) + columns_ - 1) / columns_;
     image_ = gpu::Image(device, "order_sums", {columns_ * size.x, rows * size.y}, kFormat, kUsage);
     restart();

@@ -6,11 +6,14 @@
 #include <cstdlib>
 #include <cstring>
 #include <numeric>
+#include <optional>
 #include <thread>
 
 #include "licht/core/error.h"
 #include "licht/gpu/commands.h"
 #include "licht/gpu/device_select.h"
+#include "licht/gpu/pieces.h"
+#include "licht/gpu/upload_image.h"
 #include "licht/spirv/gpu_access_comp.h"
 #include "licht/spirv/gpu_everything_comp.h"
 #include "licht/spirv/gpu_sample_comp.h"
@@ -50,6 +53,23 @@ std::string textOf(const Function& function) {
 
 bool contains(const std::string& text, const std::string& part) {
     return text.find(part) != std::string::npos;
+}
+
+TEST(Buffer, ofManyPiecesComesBack) {
+    std::vector<std::uint32_t> values(2 * kPieceBytes / 4 + 1001);
+    std::iota(values.begin(), values.end(), 7U);
+    EXPECT_TRUE(as<std::uint32_t>(readBuffer(testDevice(), upload("numbers", values))) == values);
+}
+
+TEST(Image, ofManyPiecesComesBack) {
+    // Rows of which no whole number makes a piece.
+    const VkExtent2D extent{3000, 7000};
+    std::vector<std::uint32_t> values(std::size_t{extent.width} * extent.height);
+    std::iota(values.begin(), values.end(), 7U);
+    const Image image = uploadImage(testDevice(), "numbers", extent, VK_FORMAT_R8G8B8A8_UNORM,
+                                    std::as_bytes(std::span(values)),
+                                    VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
+    EXPECT_TRUE(as<std::uint32_t>(readImage(testDevice(), image)) == values);
 }
 
 TEST(Buffer, uploadedBytesComeBack) {
@@ -407,6 +427,39 @@ TEST(Commands, timersMeasureTheDevice) {
     EXPECT_GT(large_time.seconds, small_time.seconds) << "64 MiB against 4 bytes";
     EXPECT_LT(large_time.seconds + small_time.seconds, wall);
     RecordProperty("large_seconds", std::to_string(large_time.seconds));
+}
+
+/// Gives a device up while it works; what is destroyed afterwards waits for nothing. Ends the program.
+[[noreturn]] void giveUpAndLeave() {
+    std::optional<Device> device(std::in_place, DeviceOptions{});
+    double seconds = 0.0;
+    std::string said;
+    {
+        constexpr std::uint32_t kCount = 65535U * 64;
+        const Program program = Program::compute(*device, "step", gpu_step_comp, {});
+        const Buffer a(*device, "a", kCount * 4, kStorage, Memory::device);
+        const Buffer b(*device, "b", kCount * 4, kStorage, Memory::device);
+        const std::vector<BoundResource> resources = {{"from", &a}, {"to", &b}};
+        const Bindings bindings(*device, program, resources);
+        Commands commands(*device);
+        commands.begin();
+        for (std::uint32_t step = 0; step < 64; ++step)
+            commands.dispatch("step", {program, bindings}, StepPush{kCount}, {kCount});
+        commands.submit();
+        said = textOf<HungDeviceError>([&] { commands.wait(0.0); });
+        const auto start = std::chrono::steady_clock::now();
+        said += textOf<HungDeviceError>([&] { commands.wait(); });
+        seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    }
+    const bool given_up = device->givenUp();
+    device.reset();
+    const bool right = given_up && seconds < 1e-3 && contains(said, "within 0 seconds") &&
+                       contains(said, "within 600 seconds");
+    std::_Exit(right ? 0 : 3);
+}
+
+TEST(Commands, aDeviceThatDoesNotAnswerIsGivenUp) {
+    EXPECT_EXIT(giveUpAndLeave(), testing::ExitedWithCode(0), "");
 }
 
 TEST(Commands, tooManyPassesAreRefused) {
