@@ -150,6 +150,9 @@ AtomicFile::~AtomicFile() {
 
 void AtomicFile::commit() {
     assert(!committed_);
+    // Who may read and write a file that is replaced stays as it was.
+    struct stat status {};
+    if (::stat(destination_.c_str(), &status) == 0) ::chmod(temporary_.c_str(), status.st_mode & 07777U);
     Descriptor file(temporary_, O_RDONLY);
     if (!file.valid() || ::fsync(file.number()) != 0 || !file.close() ||
         ::rename(temporary_.c_str(), destination_.c_str()) != 0)

@@ -86,10 +86,14 @@ class Builder {
 public:
     explicit Builder(std::span<const LightBound> lights) : order_(lights.size()) {
         std::iota(order_.begin(), order_.end(), 0U);
+        double sum = 0.0;
         for (const LightBound& light : lights) {
+            sum += light.intensity;
             clusters_.push_back(clusterOf(light));
             centres_.push_back(0.5 * (light.low + light.high));
         }
+        constexpr int kExponentOfSum = 60;
+        if (sum > 0.0) intensity_exponent_ = kExponentOfSum - std::ilogb(sum);
         tree_.trails.resize(lights.size());
     }
 
@@ -211,7 +215,7 @@ private:
         return half;
     }
 
-    static LightChildRecord recordOf(const Cluster& cluster) {
+    [[nodiscard]] LightChildRecord recordOf(const Cluster& cluster) const {
         LightChildRecord record{};
         record.centre = vec3(0.5 * (cluster.low + cluster.high));
         // The box must hold everything after rounding.
@@ -225,13 +229,15 @@ private:
         const double reach = cluster.normals.angle + cluster.emission_angle;
         record.cos_reach = reach < kPi ? static_cast<float>(std::cos(reach)) : -1.0F;
         record.sin_reach = reach < kPi ? static_cast<float>(std::sin(reach)) : 0.0F;
-        record.intensity = static_cast<float>(cluster.intensity);
+        record.intensity = static_cast<float>(std::ldexp(cluster.intensity, intensity_exponent_));
         record.next = cluster.two_sided ? kLightTwoSided : 0U;
         return record;
     }
 
     std::vector<uint> order_;
     std::vector<Cluster> clusters_;
+    // Only ratios count; this one keeps the whole far from both ends of what floats hold. Exact.
+    int intensity_exponent_ = 0;
     std::vector<glm::dvec3> centres_;
     LightTree tree_;
 };

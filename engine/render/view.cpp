@@ -1,7 +1,11 @@
 #include "licht/render/view.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <limits>
+
+#include "licht/core/error.h"
 
 namespace licht {
 
@@ -14,6 +18,11 @@ ViewRecord makeView(const Camera& camera, uvec2 size, const Bounds& bounds) {
     const bool orthographic = camera.kind == Camera::Kind::orthographic;
     view.orthographic = orthographic ? 1U : 0U;
     view.scale_y = orthographic ? camera.y_extent : std::tan(0.5F * camera.y_fov);
+    // Below, directions of neighbouring pixels are the same floats.
+    if (!orthographic && !(view.scale_y >= 0x1p-24F * static_cast<float>(size.y)))
+        throw InputError(
+            fmt::format("camera '{}': its vertical angle of {} radians is too narrow for {} pixels",
+                        camera.name, camera.y_fov, size.y));
     view.scale_x = view.scale_y * static_cast<float>(size.x) / static_cast<float>(size.y);
     view.z_near = camera.z_near;
     const float reach = bounds.empty() ? 1.0F : glm::length(bounds.centre() - view.eye) + bounds.radius();

@@ -98,6 +98,7 @@ Json describeContents(const Scene& scene) {
     if (!bounds.empty()) {
         json["bounds"] = {{"lower", vectorOf(bounds.lower)}, {"upper", vectorOf(bounds.upper)}};
     }
+    json["origin"] = {scene.origin.x, scene.origin.y, scene.origin.z};
     return json;
 }
 
@@ -144,6 +145,10 @@ std::string describeSceneText(const Scene& scene) {
         text += fmt::format("  bounds       ({:.4g}, {:.4g}, {:.4g}) to ({:.4g}, {:.4g}, {:.4g}) m\n",
                             bounds.lower.x, bounds.lower.y, bounds.lower.z, bounds.upper.x, bounds.upper.y,
                             bounds.upper.z);
+    }
+    if (scene.origin != glm::dvec3(0.0)) {
+        text += fmt::format("  origin       ({:.10g}, {:.10g}, {:.10g}) m of the file, far as it is\n",
+                            scene.origin.x, scene.origin.y, scene.origin.z);
     }
     text += fmt::format("  materials    {}\n", scene.materials.size());
     text += fmt::format("  textures     {}, {:.1f} MiB\n", scene.textures.size(),

@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "licht/scene/coarse_places.h"
 #include "licht/scene/gltf_accessor.h"
 #include "licht/scene/gltf_asset.h"
 #include "licht/scene/gltf_budget.h"
@@ -13,6 +14,7 @@
 #include "licht/scene/gltf_instancing.h"
 #include "licht/scene/gltf_material.h"
 #include "licht/scene/gltf_nodes.h"
+#include "licht/scene/gltf_origin.h"
 #include "licht/scene/gltf_views.h"
 
 namespace licht {
@@ -210,9 +212,12 @@ Scene loadGltf(const std::filesystem::path& path, const GltfOptions& options) {
     asset.strict = options.strict;
     gltf::NodeTree tree = gltf::flattenNodes(asset, options.scene);
     gltf::requireBudget(asset, tree);
+    const glm::dvec3 origin = gltf::moveToOrigin(asset, tree);
     Scene scene = gltf::SceneBuilder(asset, std::move(tree)).build();
     scene.name = path.stem().string();
     scene.files = filesOf(asset, path);
+    scene.origin = origin;
+    warnOfCoarsePlaces(scene);
     return scene;
 }
 

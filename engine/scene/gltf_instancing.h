@@ -13,7 +13,8 @@ namespace licht::gltf {
 /// attributes.
 std::optional<std::vector<glm::dmat4>> readInstances(Asset& asset, int node);
 
-/// Indices of the accessors that readInstances() would read, as they stand there, unchecked; nullopt as there.
+/// Indices of the accessors that readInstances() would read, as they stand there, unchecked; nullopt as
+/// there.
 std::optional<std::vector<int>> instanceAccessors(const Asset& asset, int node);
 
 }  // namespace licht::gltf

@@ -18,8 +18,8 @@ public:
     /// Index into Scene::materials; -1 is glTF's default material.
     std::uint32_t load(int material, const std::string& object);
 
-    /// Once all are loaded: decodes the textures. Where one cannot be read, slots of colours show its stand-in
-    /// and the others go without.
+    /// Once all are loaded: decodes the textures. Where one cannot be read, slots of colours show its
+    /// stand-in and the others go without.
     void finish();
 
 private:

@@ -172,6 +172,7 @@ struct Scene {
     std::optional<Environment> environment;
     std::vector<SceneNote> notes;
     std::vector<std::filesystem::path> files;  ///< all that it names, itself included; empty: built in
+    glm::dvec3 origin{0.0};                    ///< what of the file's world is the origin here, metres
     double default_exposure = 0.0;             ///< EV the scene's author suggests
 };
 

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <new>
@@ -52,7 +53,9 @@ int main(int argument_count, char** arguments) {
         return complain(error.what(), kBadInput);
     } catch (const licht::HungDeviceError& error) {
         // What runs at a usual exit may wait for the device without end.
-        std::_Exit(complain(error.what(), kFailed));
+        const int code = complain(error.what(), kFailed);
+        std::fflush(nullptr);
+        std::_Exit(code);
     } catch (const std::bad_alloc&) {
         return complain("out of memory", kFailed);
     } catch (const std::exception& error) {

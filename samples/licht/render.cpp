@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <optional>
 #include <span>
 
@@ -107,17 +108,29 @@ void warnOfBlackness(const Film& film, double exposure) {
     printError(fmt::format("licht: warning: the picture is black: {}\n", why));
 }
 
-/// A picture that is there is not lost because another file cannot be written: says why, and goes on.
-template <typename Write>
-bool written(const Write& write) {
-    try {
-        write();
-        return true;
-    } catch (const std::exception& error) {
-        printError(fmt::format("licht: {}\n", oneLine(error.what())));
-        return false;
+/// A picture that is there is not lost because another file cannot be written: says why and which files are
+/// whole, and goes on.
+class FilesWritten {
+public:
+    template <typename Write>
+    bool add(const std::filesystem::path& path, const Write& write) {
+        try {
+            write();
+            whole_ += fmt::format("{}{}", whole_.empty() ? "" : ", ", oneLine(path.string()));
+            return true;
+        } catch (const std::exception& error) {
+            all_ = false;
+            printError(fmt::format("licht: {} (written so far: {})\n", oneLine(error.what()),
+                                   whole_.empty() ? "nothing" : whole_));
+            return false;
+        }
     }
-}
+    [[nodiscard]] bool all() const { return all_; }
+
+private:
+    std::string whole_;
+    bool all_ = true;
+};
 
 /// All files that a run gives, checked against all that it takes.
 void requireFilesOfItsOwn(const RenderOptions& options, const Scene& scene, const RenderReport& report) {
@@ -175,9 +188,9 @@ int render(const RenderOptions& options) {
 
     describeRun(report, device, renderer, result);
     const double exposure = options.run.exposure.value_or(source.scene.default_exposure);
-    bool all_written = true;
+    FilesWritten files;
     for (const auto& output : report.outputs) {
-        const bool good = written([&] {
+        const bool good = files.add(output, [&] {
             if (isExr(output))
                 writeExr(output,
                          exrPicture(result.film, options.run.render.layers, reportAttributes(report)));
@@ -185,7 +198,6 @@ int render(const RenderOptions& options) {
                 writePng(output, opaquePicture(renderer.readDisplay(options.run.tonemap,
                                                                     static_cast<float>(exposure))));
         });
-        all_written &= good;
         if (good && !options.quiet)
             printOut(fmt::format("wrote {} ({}x{})\n", oneLine(output.string()), shot.size.x, shot.size.y));
     }
@@ -198,12 +210,18 @@ int render(const RenderOptions& options) {
     report.total_seconds = secondsSinceProcessStart();
     if (options.report) {
         const std::string json = reportJson(report);
-        all_written &= written([&] { writeFile(*options.report, std::as_bytes(std::span(json))); });
+        files.add(*options.report, [&] { writeFile(*options.report, std::as_bytes(std::span(json))); });
     }
     if (!options.quiet) printOut(reportLine(report) + "\n");
     if (result.stopped_by == Stop::interrupt)
         printError(fmt::format("licht: interrupted: wrote what was there, {}\n", reportLine(report)));
-    return all_written && device.validationMessages().empty() ? 0 : 1;
+    const int code = files.all() && device.validationMessages().empty() ? 0 : 1;
+    // What runs at a usual exit may wait for a hung device without end.
+    if (device.givenUp()) {
+        std::fflush(nullptr);
+        std::_Exit(code);
+    }
+    return code;
 }
 
 }  // namespace licht

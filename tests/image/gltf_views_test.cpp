@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "licht/core/error.h"
+#include "licht/render/renderer.h"
 #include "support/gltf_picture.h"
 #include "support/gpu_test.h"
 #include "support/render_test.h"
@@ -265,6 +267,22 @@ TEST(GltfLamps, GiveLightByTheirCoverage) {
                 << cover.name << ", estimator " << static_cast<int>(direct);
         }
     }
+}
+
+TEST(GltfCameras, TooNarrowForTheirPixelsAreRefused) {
+    GltfPicture gltf;
+    gltf.addQuad(GltfPicture::matte());
+    const Scene scene = gltf.scene();
+    Camera camera = frontCamera();
+    camera.kind = Camera::Kind::perspective;
+    RenderSettings settings = smallPicture();
+    // Sixteen rows, each of 2^-23 radians: as fine as unit directions are.
+    for (const float angle : {1e-30F, 15.9F * 0x1p-23F}) {
+        camera.y_fov = angle;
+        EXPECT_THROW(Renderer(gpu::testDevice(), scene, camera, settings), InputError) << angle;
+    }
+    camera.y_fov = 16.1F * 0x1p-23F;
+    EXPECT_NO_THROW(Renderer(gpu::testDevice(), scene, camera, settings));
 }
 
 }  // namespace

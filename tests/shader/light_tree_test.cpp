@@ -174,6 +174,23 @@ TEST(LightTree, hidesNoLightThatReachesThePoint) {
 }
 
 // Near lights first: the reason for the tree.
+// As bright as floats go: their sum has no float, and their flux neither.
+TEST(LightTree, holdsWhatIsAsBrightAsFloatsAre) {
+    std::vector<LightBound> lights = randomLights(7, 40);
+    const LightTree plain = buildLightTree(lights);
+    for (LightBound& light : lights) light.intensity = std::ldexp(light.intensity, 126);
+    const LightTree bright = buildLightTree(lights);
+    const ShadingPoint point = {.position = dvec3(0.1, 0.2, 0.3), .normal = dvec3(0, 0, 1)};
+    double sum = 0.0;
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        EXPECT_EQ(bright.trails[i], plain.trails[i]);
+        const double pmf = lightTreePmf(bright, point, bright.trails[i]);
+        EXPECT_EQ(pmf, lightTreePmf(plain, point, plain.trails[i]));
+        sum += pmf;
+    }
+    EXPECT_GT(sum, 0.0);
+}
+
 TEST(LightTree, prefersWhatIsNearAndFacing) {
     std::vector<LightBound> row;
     for (int i = 0; i < 64; ++i) {

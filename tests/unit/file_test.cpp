@@ -102,6 +102,18 @@ TEST_F(FileTest, CommitReplacesAndLeavesNothingElse) {
     EXPECT_EQ(entries(), 1);
 }
 
+TEST_F(FileTest, CommitKeepsWhoMayReadAndWrite) {
+    const fs::path path = folder_ / "mode.txt";
+    put(path, "old");
+    for (const mode_t mode : {0600U, 0664U, 0400U}) {
+        ASSERT_EQ(::chmod(path.c_str(), mode), 0);
+        writeFile(path, std::as_bytes(std::span("new", 3)));
+        struct stat status {};
+        ASSERT_EQ(::stat(path.c_str(), &status), 0);
+        EXPECT_EQ(status.st_mode & 07777U, mode);
+    }
+}
+
 TEST_F(FileTest, AbandonedFileKeepsTheOldContent) {
     const fs::path path = folder_ / "picture.png";
     put(path, "old");
