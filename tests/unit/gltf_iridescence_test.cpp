@@ -20,9 +20,11 @@ protected:
     Scene load(const Json& extension, const Json& others = Json::object()) {
         GltfFile file = GltfFile::triangle();
         file.json["extensionsRequired"] = {"KHR_materials_iridescence"};
-        writePng(folder_.path() / "black.png", Image(1, 1, 3));
+        // Of different sizes: equal images would be one texture.
         for (int i = 0; i < 2; ++i) {
-            file.add("images", {{"uri", "black.png"}});
+            const std::string name = i == 0 ? "one.png" : "two.png";
+            writePng(folder_.path() / name, Image(1 + i, 1, 3));
+            file.add("images", {{"uri", name}});
             file.add("textures", {{"source", i}});
         }
         file.primitive()["attributes"]["TEXCOORD_0"] = file.vec2s({0, 0, 1, 0, 0, 1});
