@@ -104,6 +104,7 @@ TEST(SceneSize, IsHeldAgainstWhatShadersCanNumber) {
 }
 
 TEST(SceneSize, IsHeldAgainstMemory) {
+    gpu::testDevice();  // takes memory too
     const std::uint64_t before = memoryLimit();
     limitMemory(memoryInUse() + (std::uint64_t{64} << 20U));
     EXPECT_EQ(refusal(SceneSize{.vertices = 1000, .baked_triangles = 1000}), "");
