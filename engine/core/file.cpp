@@ -150,12 +150,13 @@ AtomicFile::~AtomicFile() {
 
 void AtomicFile::commit() {
     assert(!committed_);
-    // Who may read and write a file that is replaced stays as it was.
+    Descriptor file(temporary_, O_RDONLY);
+    if (!file.valid() || ::fsync(file.number()) != 0 || !file.close())
+        throw DeviceError(fmt::format("{}: writing failed: {}", destination_.string(), reason(errno)));
+    // Who may read and write a file that is replaced stays as it was. Last, because it may be nobody.
     struct stat status {};
     if (::stat(destination_.c_str(), &status) == 0) ::chmod(temporary_.c_str(), status.st_mode & 07777U);
-    Descriptor file(temporary_, O_RDONLY);
-    if (!file.valid() || ::fsync(file.number()) != 0 || !file.close() ||
-        ::rename(temporary_.c_str(), destination_.c_str()) != 0)
+    if (::rename(temporary_.c_str(), destination_.c_str()) != 0)
         throw DeviceError(fmt::format("{}: writing failed: {}", destination_.string(), reason(errno)));
     committed_ = true;
     // The new name itself reaches the disk with the folder; a file system that cannot do this loses no

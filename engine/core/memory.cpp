@@ -9,6 +9,7 @@
 #include <fstream>
 #include <limits>
 #include <optional>
+#include <string>
 
 #include "licht/core/error.h"
 

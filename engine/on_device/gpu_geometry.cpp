@@ -9,7 +9,7 @@ std::size_t bakedInstances(const FlatGeometry& geometry) {
     return geometry.instances.size() - geometry.placements.size();
 }
 
-// So many draws take longer than the search that tells instances of one draw apart.
+// Above, draws are merged (tests/bench/MEASURED.md, "Memory"); below, the vertex program need not search.
 constexpr std::size_t kMostDraws = 1024;
 
 uint mergedInstances(const FlatGeometry& geometry) {

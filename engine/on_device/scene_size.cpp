@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "licht/core/error.h"
 #include "licht/shared/bvh_layout.h"
 #include "licht/shared/effects.h"

@@ -147,7 +147,7 @@ std::string describeSceneText(const Scene& scene) {
                             bounds.upper.z);
     }
     if (scene.origin != glm::dvec3(0.0)) {
-        text += fmt::format("  origin       ({:.10g}, {:.10g}, {:.10g}) m of the file, far as it is\n",
+        text += fmt::format("  origin       ({:.10g}, {:.10g}, {:.10g}) m in the file's world\n",
                             scene.origin.x, scene.origin.y, scene.origin.z);
     }
     text += fmt::format("  materials    {}\n", scene.materials.size());

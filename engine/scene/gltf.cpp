@@ -212,8 +212,15 @@ Scene loadGltf(const std::filesystem::path& path, const GltfOptions& options) {
     asset.strict = options.strict;
     gltf::NodeTree tree = gltf::flattenNodes(asset, options.scene);
     gltf::requireBudget(asset, tree);
-    const glm::dvec3 origin = gltf::moveToOrigin(asset, tree);
+    const gltf::NodeTree as_stored = tree;
+    glm::dvec3 origin = gltf::moveToOrigin(asset, tree);
     Scene scene = gltf::SceneBuilder(asset, std::move(tree)).build();
+    // Bounds that accessors state may be wrong; what they moved no nearer stays where the file has it.
+    if (origin != glm::dvec3(0.0) &&
+        !(glm::length(glm::dvec3(sceneBounds(scene).centre())) < 0.5 * glm::length(origin))) {
+        origin = glm::dvec3(0.0);
+        scene = gltf::SceneBuilder(asset, as_stored).build();
+    }
     scene.name = path.stem().string();
     scene.files = filesOf(asset, path);
     scene.origin = origin;

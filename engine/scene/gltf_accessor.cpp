@@ -112,7 +112,8 @@ public:
             asset_.fail(object_,
                         fmt::format("component type {} is not allowed here", accessor_.componentType));
         }
-        if (accessor_.count >= kNone || (accessor_.bufferView < 0 && accessor_.count > kMostImpliedElements)) {
+        if (accessor_.count >= kNone ||
+            (accessor_.bufferView < 0 && accessor_.count > kMostImpliedElements)) {
             asset_.fail(object_, fmt::format("{} elements are too many", accessor_.count));
         }
     }

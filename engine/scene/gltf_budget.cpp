@@ -125,7 +125,7 @@ private:
     double implied_instances_ = 0.0;
     double placed_ = 0.0;
     double largest_ = 0.0;
-    std::string largest_object_;
+    std::string largest_object_ = "the scene";
     std::string largest_words_;
 };
 

@@ -7,8 +7,26 @@
 namespace licht::gltf {
 namespace {
 
-/// Farther than this many radii: four digits of a float are lost, of which seven are too many to wait for.
+/// Of its radii: a scene whose centre is farther from the origin than that is moved. It has then lost four of
+/// the 24 bits of its floats' significands.
 constexpr double kFar = 16.0;
+
+/// What the stored numbers of normalised components are divided by (glTF 2.0, 3.6.2.2).
+double divisorOf(const tinygltf::Accessor& accessor) {
+    if (!accessor.normalized) return 1.0;
+    switch (accessor.componentType) {
+        case TINYGLTF_COMPONENT_TYPE_BYTE:
+            return 127.0;
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+            return 255.0;
+        case TINYGLTF_COMPONENT_TYPE_SHORT:
+            return 32767.0;
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+            return 65535.0;
+        default:
+            return 1.0;
+    }
+}
 
 struct Box {
     glm::dvec3 lower{INFINITY};
@@ -28,9 +46,10 @@ std::optional<Box> statedBounds(const Asset& asset, const tinygltf::Primitive& p
         return std::nullopt;
     const tinygltf::Accessor& accessor = asset.model.accessors[static_cast<std::size_t>(position->second)];
     if (accessor.minValues.size() != 3 || accessor.maxValues.size() != 3) return std::nullopt;
+    const double divisor = divisorOf(accessor);
     Box box;
-    box.extend({accessor.minValues[0], accessor.minValues[1], accessor.minValues[2]});
-    box.extend({accessor.maxValues[0], accessor.maxValues[1], accessor.maxValues[2]});
+    for (const std::vector<double>* values : {&accessor.minValues, &accessor.maxValues})
+        box.extend(glm::dvec3((*values)[0], (*values)[1], (*values)[2]) / divisor);
     return box;
 }
 

@@ -94,6 +94,30 @@ TEST_F(GltfOrigin, WarnsOfSmallThingsInAWideScene) {
     EXPECT_TRUE(isCoarse(scene));
 }
 
+TEST_F(GltfOrigin, BelievesNoBoundsThatLie) {
+    GltfFile file = pair({0, 0, 0});
+    const auto positions = file.primitive()["attributes"]["POSITION"].get<std::size_t>();
+    file.json["accessors"][positions]["min"] = {1e8, 1e8, 1e8};
+    file.json["accessors"][positions]["max"] = {1e8 + 1, 1e8 + 1, 1e8 + 1};
+    const Scene scene = load(file);
+    EXPECT_EQ(scene.origin, glm::dvec3(0.0));
+    ASSERT_EQ(scene.instances.size(), 2U);
+    EXPECT_EQ(vec3(scene.instances[1].world_from_object[3]), vec3(3, 0, 0.5F));
+    EXPECT_EQ(scene.meshes.size(), 1U);
+}
+
+// Bounds of normalised numbers are stated as they are stored.
+TEST_F(GltfOrigin, ReadsBoundsOfNormalisedNumbers) {
+    GltfFile file = pair({1e6, 0, 0});
+    const int positions = file.accessor(std::vector<std::int16_t>{0, 0, 0, 32767, 0, 0, 0, 32767, 0},
+                                        test::kShort, "VEC3", 3, true);
+    file.json["accessors"][static_cast<std::size_t>(positions)]["min"] = {0, 0, 0};
+    file.json["accessors"][static_cast<std::size_t>(positions)]["max"] = {32767, 32767, 0};
+    file.primitive()["attributes"]["POSITION"] = positions;
+    file.json["extensionsUsed"] = {"KHR_mesh_quantization"};
+    EXPECT_NEAR(load(file).origin.x, 1e6, 8.0);
+}
+
 TEST_F(GltfOrigin, FollowsJointsOfSkins) {
     GltfFile file = pair({1e6, 0, 0});
     file.json["skins"] = Json::array({{{"joints", {1}}}});
