@@ -79,7 +79,9 @@ void MaterialLoader::finish() {
     for (Material& material : scene_.materials)
         for (const SlotInfo& info : kSlotTable) {
             TextureSlot& slot = material.slots[info.kind];
-            if (slot.present() && broken[slot.texture] && !info.srgb) slot = {};
+            if (!slot.present() || !broken[slot.texture]) continue;
+            slot.linear = false;  // checks with edges
+            if (!info.srgb) slot = {};
         }
 }
 

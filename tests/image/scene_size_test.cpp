@@ -38,12 +38,12 @@ bool contains(const std::string& text, const std::string& part) {
     return text.find(part) != std::string::npos;
 }
 
-/// A grid of quads that face +Z, `columns` a side, on a mesh each or all on one.
+/// A grid of quads that face +Z, `columns` a side and of two materials in turn: an instance each, or one of
+/// all quads of a material.
 Scene quads(int columns, bool apart) {
     Scene scene;
-    scene.materials = {lambert(0.5F)};
-    Mesh all;
-    Mesh one;
+    scene.materials = {lambert(0.25F), lambert(0.5F)};
+    scene.meshes.resize(2);
     const auto add = [](Mesh& mesh, const vec3& at) {
         const auto first = static_cast<std::uint32_t>(mesh.positions.size());
         for (const vec3& corner :
@@ -52,20 +52,26 @@ Scene quads(int columns, bool apart) {
         mesh.triangles.push_back(uvec3(first, first + 1, first + 2));
         mesh.triangles.push_back(uvec3(first, first + 2, first + 3));
     };
-    add(one, vec3(0.0F));
-    for (int i = 0; i < columns * columns; ++i) {
-        const vec3 at(static_cast<float>(i % columns), static_cast<float>(i / columns), 0.0F);
-        add(all, at);
-        if (apart) scene.instances.push_back({"quad", 0, glm::translate(mat4(1.0F), at)});
+    for (std::uint32_t k = 0; k < 2; ++k) {
+        scene.meshes[k].material = k;
+        if (apart) add(scene.meshes[k], vec3(0.0F));
+        if (!apart) scene.instances.push_back({"all", k, mat4(1.0F)});
     }
-    scene.meshes = {apart ? one : all};
-    if (!apart) scene.instances.push_back({"all", 0, mat4(1.0F)});
+    for (int i = 0; i < columns * columns; ++i) {
+        const auto material = static_cast<std::uint32_t>(i % columns + i / columns) % 2U;
+        const vec3 at(static_cast<float>(i % columns), static_cast<float>(i / columns), 0.0F);
+        if (apart)
+            scene.instances.push_back({"quad", material, glm::translate(mat4(1.0F), at)});
+        else
+            add(scene.meshes[material], at);
+    }
     scene.environment = constantEnvironment(vec3(1.0F));
     return scene;
 }
 
 TEST(SceneSize, CountsBakedOnesEachAndInstancedMeshesOnce) {
-    const Scene scene = quads(7, true);
+    Scene scene = quads(7, true);
+    for (Instance& instance : scene.instances) instance.mesh = 0;
     InstanceOrder order = orderInstances(scene, Effects{});
     SceneSize size = sizeOnDevice(scene, order);
     EXPECT_EQ(size.vertices, 4U * 49);
