@@ -144,14 +144,18 @@ TEST_F(GltfBudget, TheSameImageIsDecodedOnce) {
     const std::string white = picture(1.0F);
     const std::string grey = picture(0.5F);
     const std::string as_data = "data:image/png;base64,";
+    // By one name twice, and by another.
+    folder_.write("white.png", white);
     const GltfFile file = withImages({{{"uri", as_data + test::base64(white)}, {"name", "a"}},
                                       {{"uri", as_data + test::base64(grey)}, {"name", "b"}},
-                                      {{"uri", as_data + test::base64(white)}, {"name", "c"}}});
+                                      {{"uri", as_data + test::base64(white)}, {"name", "c"}},
+                                      {{"uri", "white.png"}, {"name", "d"}}});
     const Scene scene = loadGltf(file.writeGlb(folder_));
     ASSERT_EQ(scene.textures.size(), 2U);
     EXPECT_EQ(scene.textures[0].bytes[0], 255);
     EXPECT_EQ(scene.textures[1].bytes[0], 128);
-    ASSERT_EQ(scene.materials.size(), 3U);
+    ASSERT_EQ(scene.materials.size(), 4U);
+    EXPECT_EQ(scene.materials[3].slots[kSlotBaseColor].texture, 0U);
     EXPECT_EQ(scene.materials[0].slots[kSlotBaseColor].texture, 0U);
     EXPECT_EQ(scene.materials[1].slots[kSlotBaseColor].texture, 1U);
     EXPECT_EQ(scene.materials[2].slots[kSlotBaseColor].texture, 0U);
@@ -188,6 +192,7 @@ TEST_F(GltfBudget, ImagesThatCannotBeReadHaveAStandIn) {
         EXPECT_EQ(std::vector<std::uint8_t>(texture.bytes.begin(), texture.bytes.begin() + 8),
                   (std::vector<std::uint8_t>{255, 0, 255, 255, 0, 0, 0, 255}));
         EXPECT_TRUE(scene.materials.at(0).slots[kSlotBaseColor].present());
+        EXPECT_FALSE(scene.materials.at(0).slots[kSlotBaseColor].linear);
         EXPECT_FALSE(scene.materials.at(0).slots[kSlotNormal].present());
     }
 }
