@@ -79,6 +79,10 @@ public:
                           const Buffer& arguments, VkDeviceSize offset) {
         dispatchIndirectBytes(name, what, std::as_bytes(std::span(&push, 1)), arguments, offset);
     }
+    void dispatchIndirect(std::string_view name, const BoundProgram& what, const Buffer& arguments,
+                          VkDeviceSize offset) {
+        dispatchIndirectBytes(name, what, {}, arguments, offset);
+    }
     /// Draws with the program bound. Viewport and scissor are the whole picture and nothing is culled until
     /// `draws` says otherwise.
     template <typename Push>

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <optional>
 
+#include "device_check.h"
 #include "device_select.h"
 #include "instance.h"
 #include "licht/core/error.h"
@@ -85,6 +86,7 @@ Device::Device(const DeviceOptions& options) : Device() {
     report_ = candidates[*chosen].report;
     report_.chosen = true;
     createDevice(surface_ != VK_NULL_HANDLE);
+    ballot_trouble_ = checkDevice(*this);
 }
 
 void Device::createInstance(const DeviceOptions& options) {

@@ -51,8 +51,8 @@ std::vector<DeviceReport> listDevices(const DeviceOptions& options);
 class Device {
 public:
     /// Throws InputError when options.device names no usable device (all reasons in the text), DeviceError
-    /// when creation fails. LICHT_VALIDATION=1 in the environment turns validation on as well and prints
-    /// every message to stderr at destruction.
+    /// when creation fails or when the device computes wrong (device_check.h). LICHT_VALIDATION=1 in the
+    /// environment turns validation on as well and prints every message to stderr at destruction.
     explicit Device(const DeviceOptions& options);
     Device(const Device&) = delete;
     Device& operator=(const Device&) = delete;
@@ -66,6 +66,9 @@ public:
     [[nodiscard]] VkSurfaceKHR surface() const { return surface_; }
     [[nodiscard]] const DeviceReport& report() const { return report_; }
     [[nodiscard]] const VkPhysicalDeviceLimits& limits() const { return limits_; }
+    /// The operation on subgroup ballots that the device gets wrong (device_check.h), so that nothing may use
+    /// them; empty: none.
+    [[nodiscard]] std::string_view ballotTrouble() const { return ballot_trouble_; }
     [[nodiscard]] VkPipelineCache pipelineCache() const { return pipeline_cache_; }
 
     /// Memory of that kind for these requirements; counted in deviceBytes(). Throws DeviceError with the size
@@ -129,6 +132,7 @@ private:
     VkPhysicalDeviceLimits limits_{};
     VkPhysicalDeviceMemoryProperties memory_properties_{};
     DeviceReport report_;
+    std::string_view ballot_trouble_;
     bool debug_utils_ = false;
     std::uint32_t timestamp_bits_ = 0;
     PFN_vkSetDebugUtilsObjectNameEXT set_name_ = nullptr;

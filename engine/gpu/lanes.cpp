@@ -13,7 +13,7 @@ bool runsInLockstep(const gpu::Device& device) {
     return device.report().type == "cpu";
 }
 
-bool hasBallots(const gpu::Device& device) {
+bool offersBallots(const gpu::Device& device) {
     VkPhysicalDeviceSubgroupProperties subgroups{};
     subgroups.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES;
     VkPhysicalDeviceProperties2 properties{};
@@ -22,6 +22,10 @@ bool hasBallots(const gpu::Device& device) {
     vkGetPhysicalDeviceProperties2(device.physicalDevice(), &properties);
     return (subgroups.supportedOperations & VK_SUBGROUP_FEATURE_BALLOT_BIT) != 0 &&
            (subgroups.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0;
+}
+
+bool hasBallots(const gpu::Device& device) {
+    return offersBallots(device) && device.ballotTrouble().empty();
 }
 
 std::uint32_t raysPerThread(const gpu::Device& device) {

@@ -7,8 +7,10 @@ namespace licht {
 /// programs do about it would cost a GPU.
 bool runsInLockstep(const gpu::Device& device);
 
-/// Whether compute programs have subgroup ballots. Not a core feature; lavapipe and all GPUs of the last ten
-/// years have it.
+/// Whether a device says that compute programs have subgroup ballots. Not a core feature; lavapipe and all
+/// GPUs of the last ten years have it.
+bool offersBallots(const gpu::Device& device);
+/// Whether it does, and they are right (Device::ballotTrouble()).
 bool hasBallots(const gpu::Device& device);
 
 /// How many rays of a list a thread traces (kConstantRaysPerThread): one, or a share where lanes that are

@@ -1,9 +1,17 @@
 #include "licht/render/in_flight.h"
 
+#include <fmt/format.h>
+
 #include <cstring>
 #include <span>
 
+#include "licht/core/error.h"
+
 namespace licht {
+
+bool lostRays(const CounterRecord& counts) {
+    return counts.queue_balance != 0 && counts.truncated_traversals == 0;
+}
 
 InFlight::Slot::Slot(gpu::Device& device, const std::string& name)
     : commands(device),
@@ -25,9 +33,11 @@ void InFlight::collect(Slot& slot) {
     counted_.truncated_traversals += counts.truncated_traversals;
     counted_.environment_samples += counts.environment_samples;
     counted_.environment_tries += counts.environment_tries;
+    lost_ = lost_ || lostRays(counts);
 }
 
 std::size_t InFlight::begin(const FrameRecord& record) {
+    requireAllTaken();
     const std::size_t slot = next_;
     next_ = (next_ + 1) % kSlots;
     collect(slots_[slot]);
@@ -44,6 +54,15 @@ void InFlight::submit(std::size_t slot) {
 
 void InFlight::finish() {
     for (Slot& slot : slots_) collect(slot);
+    requireAllTaken();
+}
+
+void InFlight::requireAllTaken() const {
+    if (lost_)
+        throw DeviceError(
+            fmt::format("'{}' ({}) lost rays between the kernels that queue and take them; without queues "
+                        "(--queues=off) there are none to lose",
+                        device_->report().name, device_->report().driver));
 }
 
 void InFlight::runAside(gpu::Device& device, const FrameRecord& record,

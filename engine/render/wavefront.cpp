@@ -36,9 +36,12 @@ WavefrontPrograms::WavefrontPrograms(gpu::Device& device, const gpu::SpecConstan
     if (bounces > kMostQueueBounces)
         throw InputError(fmt::format("queues hold paths of at most {} bounces, {} were asked for",
                                      kMostQueueBounces, bounces));
-    if (!hasBallots(device))
+    if (!offersBallots(device))
         throw InputError(
             fmt::format("queues need subgroup ballots, which '{}' does not have", device.report().name));
+    if (!hasBallots(device))
+        throw InputError(fmt::format("queues need subgroup ballots, but '{}' gets {} wrong",
+                                     device.report().name, device.ballotTrouble()));
     gpu::SpecConstants with_lanes = constants;
     with_lanes[kConstantRaysPerThread] = rays_per_thread > 0 ? rays_per_thread : raysPerThread(device);
     const auto compile = [&](const char* name, gpu::Spirv spirv) {
@@ -70,9 +73,9 @@ Wavefront::Wavefront(gpu::Device& device, const WavefrontPrograms& programs, uve
         return gpu::Buffer(device, name, bytes, usage, gpu::Memory::device);
     };
     counts_ =
-        buffer("queue counts", std::uint64_t{kQueueCounts} * (programs.bounces + 2) * sizeof(std::uint32_t),
+        buffer("queue counts", std::uint64_t{queueCountAt(programs.bounces + 2, 0)} * sizeof(std::uint32_t),
                VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
-    groups_ = buffer("queue groups", kQueueCounts * sizeof(uvec4),
+    groups_ = buffer("queue groups", kQueues * sizeof(uvec4),
                      VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT);
     paths_ = buffer("queue paths", paths * kPathTexels * sizeof(uvec4), kFetched);
     hits_ = buffer("queue hits", paths * sizeof(std::uint32_t), kFetched);

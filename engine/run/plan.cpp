@@ -18,7 +18,7 @@ StopRules stopRules(const RunSettings& run) {
 }
 
 RunPlan planRun(gpu::Device& device, const Scene& scene, const Camera& camera, const RunSettings& run) {
-    RunPlan plan{run.render, stopRules(run), {}, {}};
+    RunPlan plan{run.render, stopRules(run), {}, {}, {}};
     plan.settings.blue_bits = blueBitsFor(run.samples);
     if (run.auto_bounces) {
         plan.depth = chooseDepth(device, scene, camera, plan.settings, run.error.value_or(kDefaultTailShare),
@@ -27,7 +27,11 @@ RunPlan planRun(gpu::Device& device, const Scene& scene, const Camera& camera, c
     }
     if (run.render.regularise)
         plan.regularisation = measureRegularisation(device, scene, camera, plan.settings);
-    plan.settings.queues = chooseQueues(run.queues, plan.settings, plan.rules, raysPerThread(device) > 1);
+    const QueueChoice choice =
+        chooseQueues(run.queues, plan.settings, plan.rules,
+                     {runsInLockstep(device) && offersBallots(device), device.ballotTrouble()});
+    plan.settings.queues = choice.queues;
+    plan.queue_trouble = choice.trouble;
     return plan;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // What a run is asked for leaves some things to be chosen; here they are.
 #include <optional>
+#include <string_view>
 
 #include "licht/gpu/device.h"
 #include "licht/run/pilot.h"
@@ -18,6 +19,8 @@ struct RunPlan {
     StopRules rules;
     std::optional<DepthChoice> depth;           ///< where a pilot chose the bounces
     std::optional<BiasMeasure> regularisation;  ///< where it is on
+    std::string_view queue_trouble;  ///< the operation that the device gets wrong, so that one kernel does
+                                     ///< what queues were to do; else empty
 };
 
 /// Sends the pilots that a run asks for, and chooses between queues and one kernel.

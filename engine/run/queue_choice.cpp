@@ -16,15 +16,21 @@ constexpr double kRepaidSeconds = 2.0;
 // Absorption and roulette leave few paths that are longer.
 constexpr std::uint32_t kUsualBounces = 8;
 
-}  // namespace
-
-bool chooseQueues(QueueUse use, const RenderSettings& settings, const StopRules& rules, bool refilled) {
+bool wanted(QueueUse use, const RenderSettings& settings, const StopRules& rules, bool refills) {
     if (use != QueueUse::automatic) return use == QueueUse::on;
-    if (!refilled || settings.bounces > kMostQueueBounces) return false;
+    if (!refills || settings.bounces > kMostQueueBounces) return false;
     if (rules.seconds && *rules.seconds < kRepaidSeconds) return false;
     const double vertices = static_cast<double>(settings.size.x) * settings.size.y *
                             std::min(settings.bounces, kUsualBounces) * rules.samples;
     return vertices >= kRepaidVertices;
+}
+
+}  // namespace
+
+QueueChoice chooseQueues(QueueUse use, const RenderSettings& settings, const StopRules& rules,
+                         const QueueDevice& device) {
+    if (!wanted(use, settings, rules, device.refills)) return {};
+    return {device.trouble.empty(), device.trouble};
 }
 
 std::uint32_t mostChosenBounces(QueueUse use) {

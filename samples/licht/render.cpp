@@ -175,6 +175,10 @@ int render(const RenderOptions& options) {
     report.depth = plan.depth;
     report.regularisation = plan.regularisation;
     if (plan.depth && !plan.depth->reached && !options.quiet) warnOfDepth(*plan.depth);
+    if (!plan.queue_trouble.empty() && !options.quiet)
+        printError(
+            fmt::format("licht: warning: '{}' ({}) gets {} wrong: paths go through one kernel, not queues\n",
+                        device.report().name, device.report().driver, plan.queue_trouble));
     Renderer renderer(device, source.scene, shot.camera, plan.settings);
     if (!options.quiet) printWarnings(source.scene);
 

@@ -15,12 +15,11 @@ layout(std430, binding = kBindingQueueGroups) writeonly buffer QueueGroups { uve
 layout(std430, binding = kBindingCounters) buffer Counters { CounterRecord counters; };
 
 void main() {
-    uint first = kQueueCounts * push.bounce;
-    for (uint i = 0u; i <= kCountShadows; ++i) {
+    for (uint i = 0u; i < kQueues; ++i) {
         uint share = kQueueGroup * (i == kCountHits ? 1u : kRaysPerThread);
-        queue_groups[i] = uvec4((queue_counts[first + i] + share - 1u) / share, 1u, 1u, 0u);
+        queue_groups[i] = uvec4((queue_counts[queueCountAt(push.bounce, i)] + share - 1u) / share, 1u, 1u, 0u);
     }
     // Zero until the paths of this bounce are extended.
-    counters.bounce_rays += queue_counts[first + kCountRays];
-    counters.shadow_rays += queue_counts[first + kCountShadows];
+    counters.bounce_rays += queue_counts[queueCountAt(push.bounce, kCountRays)];
+    counters.shadow_rays += queue_counts[queueCountAt(push.bounce, kCountShadows)];
 }

@@ -16,6 +16,7 @@ void main() {
     bool goes_on = false;
     if (on) {
         path = texelFetch(queue_hit_texels, int(gl_GlobalInvocationID.x)).x;
+        noteTaken(kCountHits, path);
         p = unpackPath(path, push.sample_index);
         PathCounts counts = kNothingCounted;
         extendPath(p, counts, to_light, onward);
@@ -24,8 +25,9 @@ void main() {
         goes_on = p.alive;
         if (goes_on) packPath(path, p);
     }
-    uint place = appendTo(push.bounce, kCountShadows, to_light.wanted);
+    uint place = enqueue(push.bounce, kCountShadows, path, to_light.wanted);
     if (to_light.wanted) packShadow(place, to_light, path);
-    place = appendTo(push.bounce, kCountRays, goes_on);
+    place = enqueue(push.bounce, kCountRays, path, goes_on);
     if (goes_on) packRay(place, onward.query, path);
+    endBalance();
 }

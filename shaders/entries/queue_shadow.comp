@@ -15,6 +15,7 @@ struct RayTask {
 RayTask takeTask(uint i) {
     RayTask task;
     task.shadow = unpackShadow(i, push.sample_index, push.bounce, task.path);
+    noteTaken(kCountShadows, task.path);
     return task;
 }
 
@@ -29,4 +30,7 @@ void endTask(bool ends, RayTask task) {
 
 #include "ray/list.glsl"
 
-void main() { countTruncated(traceList(queueCount(push.bounce, kCountShadows))); }
+void main() {
+    countTruncated(traceList(queueCount(push.bounce, kCountShadows)));
+    endBalance();
+}

@@ -21,6 +21,7 @@ void main() {
         packPath(path, p);
         packHit(path, hit);
     }
-    uint place = appendTo(0u, kCountHits, hits);
+    uint place = enqueue(0u, kCountHits, path, hits);
     if (hits) queue_hits[place] = path;
+    endBalance();
 }

@@ -16,6 +16,7 @@ struct RayTask {
 RayTask takeTask(uint i) {
     RayTask task;
     task.ray = unpackRay(i, push.sample_index, push.bounce, task.path);
+    noteTaken(kCountRays, task.path);
     return task;
 }
 
@@ -32,10 +33,13 @@ void endTask(bool ends, RayTask task) {
         endInSky(p);
         addRadiance(task.path, p.radiance);
     }
-    uint place = appendTo(push.bounce + 1u, kCountHits, hits);
+    uint place = enqueue(push.bounce + 1u, kCountHits, task.path, hits);
     if (hits) queue_hits[place] = task.path;
 }
 
 #include "ray/list.glsl"
 
-void main() { countTruncated(traceList(queueCount(push.bounce, kCountRays))); }
+void main() {
+    countTruncated(traceList(queueCount(push.bounce, kCountRays)));
+    endBalance();
+}

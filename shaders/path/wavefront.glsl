@@ -3,13 +3,13 @@
 #ifndef LICHT_PATH_WAVEFRONT_GLSL
 #define LICHT_PATH_WAVEFRONT_GLSL
 #include "camera/gbuffer.glsl"
+#include "path/balance.glsl"
 #include "path/orders.glsl"
 #include "path/state.glsl"
 #include "shared/bindings.h"
 #include "shared/path.h"
 
 layout(push_constant) uniform Push { WavefrontPush push; };
-layout(std430, binding = kBindingQueueCounts) buffer QueueCounts { uint queue_counts[]; };
 layout(std430, binding = kBindingQueueHits) writeonly buffer QueueHits { uint queue_hits[]; };  // paths
 layout(binding = kBindingQueueHitTexels) uniform usamplerBuffer queue_hit_texels;
 
@@ -18,17 +18,7 @@ void countTruncated(uint traversals) {
     if (traversals > 0u) atomicAdd(counters.truncated_traversals, traversals);
 }
 
-uint queueCount(uint bounce, uint which) { return queue_counts[kQueueCounts * bounce + which]; }
-
-// A place in a queue for every invocation that wants one; called by all together, so that one atomic serves a subgroup. The order of places is left to
-// chance; no path depends on it.
-uint appendTo(uint bounce, uint which, bool wanted) {
-    uvec4 ballot = subgroupBallot(wanted);
-    uint total = subgroupBallotBitCount(ballot);
-    uint first = 0u;
-    if (subgroupElect() && total > 0u) first = atomicAdd(queue_counts[kQueueCounts * bounce + which], total);
-    return subgroupBroadcastFirst(first) + subgroupBallotExclusiveBitCount(ballot);
-}
+uint queueCount(uint bounce, uint which) { return queue_counts[queueCountAt(bounce, which)]; }
 
 // Paths are numbered by the tiles of 8 by 8 pixels that started them.
 uint pathOfThread() { return (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * kQueueGroup + gl_LocalInvocationIndex; }

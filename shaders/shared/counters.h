@@ -13,6 +13,7 @@ struct CounterRecord {
     uint truncated_traversals;  // that the driver ended before they were done
     uint environment_samples;   // directions drawn by rejection, and how many were tried for them
     uint environment_tries;
+    uint queue_balance;  // of what was queued and taken (path/balance.glsl); other than 0: something was lost
 };
 
 LICHT_SHARED_END

@@ -32,12 +32,16 @@ LICHT_CONSTANT uint kShadowLight = kShadowDirection + 1u;   // what it brings; t
 LICHT_CONSTANT uint kShadowEnough = kShadowLight + 1u;      // t_enough, where lights are spheres
 LICHT_CONSTANT uint kShadowTexels = kShadowEnough + 1u;
 
-// Four counts a bounce: paths to extend, rays to trace, shadow rays to trace.
-LICHT_CONSTANT uint kQueueCounts = 4u;
+// Queues of a bounce: paths to extend, rays to trace, shadow rays to trace.
 LICHT_CONSTANT uint kCountHits = 0u;
 LICHT_CONSTANT uint kCountRays = 1u;
 LICHT_CONSTANT uint kCountShadows = 2u;
+LICHT_CONSTANT uint kQueues = 3u;
 LICHT_CONSTANT uint kQueueGroup = 64u;  // threads of a workgroup
+// The counts: first the balance of what was queued and taken, as sums of which each thread of a workgroup collects one (path/balance.glsl); then how many
+// wait in each queue, bounce by bounce.
+LICHT_CONSTANT uint kQueueBalances = kQueueGroup;
+LICHT_FUNCTION uint queueCountAt(uint bounce, uint which) { return kQueueBalances + kQueues * bounce + which; }
 // Passes a bounce; a recording holds gpu::Commands::kMaxPasses.
 LICHT_CONSTANT uint kMostQueueBounces = 40u;
 

@@ -22,8 +22,10 @@ StopRules samples(std::uint32_t count) {
     return rules;
 }
 
+constexpr QueueDevice kRefills{true, {}};
+
 bool automatic(const RenderSettings& settings, const StopRules& rules) {
-    return chooseQueues(QueueUse::automatic, settings, rules, true);
+    return chooseQueues(QueueUse::automatic, settings, rules, kRefills).queues;
 }
 
 TEST(QueueChoice, LongRunsTakeQueuesAndShortOnesDoNot) {
@@ -53,12 +55,23 @@ TEST(QueueChoice, WhatQueuesCannotDoOrDoNotSpeedUpIsNotChosen) {
     RenderSettings deep = picture();
     deep.bounces = 41;
     EXPECT_FALSE(automatic(deep, samples(64)));
-    EXPECT_FALSE(chooseQueues(QueueUse::automatic, picture(), samples(64), false));
+    EXPECT_FALSE(chooseQueues(QueueUse::automatic, picture(), samples(64), {}).queues);
+}
+
+TEST(QueueChoice, AnOperationThatTheDeviceGetsWrongLeavesOneKernelAndIsNamed) {
+    const QueueDevice wrong{true, "subgroupElect"};
+    for (const QueueUse use : {QueueUse::on, QueueUse::automatic}) {
+        const QueueChoice choice = chooseQueues(use, picture(), samples(64), wrong);
+        EXPECT_FALSE(choice.queues);
+        EXPECT_EQ(choice.trouble, "subgroupElect");
+    }
+    EXPECT_EQ(chooseQueues(QueueUse::off, picture(), samples(64), wrong).trouble, "") << "not missed";
+    EXPECT_EQ(chooseQueues(QueueUse::automatic, picture(), samples(1), wrong).trouble, "") << "not missed";
 }
 
 TEST(QueueChoice, WhatIsAskedForIsDone) {
-    EXPECT_TRUE(chooseQueues(QueueUse::on, picture(), samples(1), false));
-    EXPECT_FALSE(chooseQueues(QueueUse::off, picture(), samples(64), true));
+    EXPECT_TRUE(chooseQueues(QueueUse::on, picture(), samples(1), {}).queues);
+    EXPECT_FALSE(chooseQueues(QueueUse::off, picture(), samples(64), kRefills).queues);
     EXPECT_EQ(parseChoice<QueueUse>("--queues", "auto"), QueueUse::automatic);
     EXPECT_THROW(parseChoice<QueueUse>("--queues", "yes"), InputError);
 }
