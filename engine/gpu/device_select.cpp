@@ -8,6 +8,7 @@
 #include <cctype>
 #include <cstring>
 
+#include "driver_faults.h"
 #include "instance.h"
 #include "licht/core/error.h"
 
@@ -168,6 +169,10 @@ Candidate survey(VkPhysicalDevice device, std::uint32_t index, VkSurfaceKHR surf
     const bool modern = properties.apiVersion >= kApiVersion;
     report.driver = modern ? driverText(device) : versionText(properties.driverVersion);
     report.refusals = refusals(properties, modern ? featuresOf(device) : VkPhysicalDeviceVulkan13Features{});
+    if (modern) {
+        for (std::string& fault : knownFaults(driverFacts(device)))
+            report.refusals.push_back(std::move(fault));
+    }
     chooseQueueFamily(candidate, surface);
     if (surface != VK_NULL_HANDLE && !hasExtension(device, VK_KHR_SWAPCHAIN_EXTENSION_NAME)) {
         report.refusals.emplace_back("no VK_KHR_swapchain");

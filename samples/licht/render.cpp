@@ -67,12 +67,17 @@ void describeRun(RenderReport& report, const gpu::Device& device, const Renderer
     }
 }
 
-/// The pilot found no depth that spends the light.
-void warnOfDepth(const DepthChoice& depth) {
-    printError(
-        fmt::format("licht: warning: --bounces auto: no depth up to {} leaves less than {} of the light; {} "
-                    "are followed\n",
-                    depth.bounces, depth.wanted_share, depth.bounces));
+/// The pilot found no depth that spends the light, or the device cannot be trusted with queues.
+void warnOfPlan(const RunPlan& plan, const gpu::DeviceReport& device) {
+    if (plan.depth && !plan.depth->reached)
+        printError(fmt::format(
+            "licht: warning: --bounces auto: no depth up to {} leaves less than {} of the light; {} "
+            "are followed\n",
+            plan.depth->bounces, plan.depth->wanted_share, plan.depth->bounces));
+    if (!plan.queue_trouble.empty())
+        printError(
+            fmt::format("licht: warning: '{}' ({}) gets {} wrong: paths go through one kernel, not queues\n",
+                        device.name, device.driver, plan.queue_trouble));
 }
 
 /// What makes a picture doubtful is said, not only reported.
@@ -174,11 +179,7 @@ int render(const RenderOptions& options) {
     report.settings = plan.settings;
     report.depth = plan.depth;
     report.regularisation = plan.regularisation;
-    if (plan.depth && !plan.depth->reached && !options.quiet) warnOfDepth(*plan.depth);
-    if (!plan.queue_trouble.empty() && !options.quiet)
-        printError(
-            fmt::format("licht: warning: '{}' ({}) gets {} wrong: paths go through one kernel, not queues\n",
-                        device.report().name, device.report().driver, plan.queue_trouble));
+    if (!options.quiet) warnOfPlan(plan, device.report());
     Renderer renderer(device, source.scene, shot.camera, plan.settings);
     if (!options.quiet) printWarnings(source.scene);
 

@@ -6,6 +6,7 @@
 #include <functional>
 #include <string>
 
+#include "licht/gpu/driver_faults.h"
 #include "licht/gpu/lanes.h"
 #include "support/gpu_test.h"
 
@@ -89,6 +90,22 @@ TEST(DeviceCheck, NamesTheBallotOperationThatIsWrong) {
     EXPECT_EQ(wrongBallotOperation(std::vector<BallotAnswer>(answers().ballots.size())),
               "an indirect dispatch")
         << "no answer at all";
+}
+
+TEST(DriverFaults, RefuseWhatWouldCrashBeforeItCouldAnswer) {
+    const DriverFacts wide{VK_DRIVER_ID_MESA_LLVMPIPE, "Mesa 25.0.7-2+deb13u1 (LLVM 19.1.7)", 16};
+    ASSERT_EQ(knownFaults(wide).size(), 1U);
+    EXPECT_NE(knownFaults(wide)[0].find("16 lanes"), std::string::npos) << knownFaults(wide)[0];
+    DriverFacts usual = wide;
+    usual.lanes = 8;
+    EXPECT_TRUE(knownFaults(usual).empty());
+    DriverFacts old = wide;
+    old.info = "Mesa 22.3.6 (LLVM 15.0.6)";
+    EXPECT_TRUE(knownFaults(old).empty()) << "is right with 16 lanes";
+    DriverFacts other = wide;
+    other.id = VK_DRIVER_ID_MESA_RADV;
+    EXPECT_TRUE(knownFaults(other).empty());
+    EXPECT_TRUE(knownFaults(driverFacts(testDevice().physicalDevice())).empty());
 }
 
 }  // namespace

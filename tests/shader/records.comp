@@ -3,6 +3,7 @@
 // Declares every record as the shaders do, for the comparison with their C++ twins.
 #include "shared/bvh_layout.h"
 #include "shared/counters.h"
+#include "shared/device_check.h"
 #include "shared/frame.h"
 #include "shared/geometry.h"
 #include "shared/light.h"
@@ -30,6 +31,9 @@ layout(std430, binding = 12) readonly buffer Rays { RayRecord rays[]; };
 layout(std430, binding = 13) readonly buffer RayHits { RayHitRecord ray_hits[]; };
 layout(std430, binding = 16) readonly buffer Iridescence { IridescenceRecord iridescence[]; };
 layout(std430, binding = 17) readonly buffer Clearcoats { ClearcoatRecord clearcoats[]; };
+layout(std430, binding = 18) readonly buffer Questions { CheckQuestion questions[]; };
+layout(std430, binding = 19) readonly buffer Answers { CheckAnswer answers[]; };
+layout(std430, binding = 20) readonly buffer Ballots { BallotAnswer ballots[]; };
 layout(std430, binding = 14) readonly buffer Range { RayRange range; };
 
 void main() {}

@@ -14,6 +14,7 @@
 #include "licht/gpu/program.h"
 #include "licht/shared/bvh_layout.h"
 #include "licht/shared/counters.h"
+#include "licht/shared/device_check.h"
 #include "licht/shared/frame.h"
 #include "licht/shared/geometry.h"
 #include "licht/shared/light.h"
@@ -124,7 +125,26 @@ std::map<std::string, Record> hostRecords() {
         LICHT_RECORD(
             CounterRecord, LICHT_MEMBER(CounterRecord, bounce_rays), LICHT_MEMBER(CounterRecord, shadow_rays),
             LICHT_MEMBER(CounterRecord, nonfinite_samples), LICHT_MEMBER(CounterRecord, truncated_traversals),
-            LICHT_MEMBER(CounterRecord, environment_samples), LICHT_MEMBER(CounterRecord, environment_tries)),
+            LICHT_MEMBER(CounterRecord, environment_samples), LICHT_MEMBER(CounterRecord, environment_tries),
+            LICHT_MEMBER(CounterRecord, queue_balance)),
+        LICHT_RECORD(CheckQuestion, LICHT_MEMBER(CheckQuestion, near_one),
+                     LICHT_MEMBER(CheckQuestion, factor), LICHT_MEMBER(CheckQuestion, tiny),
+                     LICHT_MEMBER(CheckQuestion, beyond)),
+        LICHT_RECORD(CheckAnswer, LICHT_MEMBER(CheckAnswer, stored), LICHT_MEMBER(CheckAnswer, word_texel),
+                     LICHT_MEMBER(CheckAnswer, float_texel), LICHT_MEMBER(CheckAnswer, sum),
+                     LICHT_MEMBER(CheckAnswer, product), LICHT_MEMBER(CheckAnswer, product_less),
+                     LICHT_MEMBER(CheckAnswer, lost), LICHT_MEMBER(CheckAnswer, finite),
+                     LICHT_MEMBER(CheckAnswer, converted), LICHT_MEMBER(CheckAnswer, halves),
+                     LICHT_MEMBER(CheckAnswer, bits), LICHT_MEMBER(CheckAnswer, wrapped),
+                     LICHT_MEMBER(CheckAnswer, group_sum), LICHT_MEMBER(CheckAnswer, place),
+                     LICHT_MEMBER(CheckAnswer, distance)),
+        LICHT_RECORD(BallotAnswer, LICHT_MEMBER(BallotAnswer, ballot), LICHT_MEMBER(BallotAnswer, subgroup),
+                     LICHT_MEMBER(BallotAnswer, lane), LICHT_MEMBER(BallotAnswer, lanes),
+                     LICHT_MEMBER(BallotAnswer, bits), LICHT_MEMBER(BallotAnswer, bits_below),
+                     LICHT_MEMBER(BallotAnswer, elected), LICHT_MEMBER(BallotAnswer, first),
+                     LICHT_MEMBER(BallotAnswer, place), LICHT_MEMBER(BallotAnswer, rounds),
+                     LICHT_MEMBER(BallotAnswer, reserved0), LICHT_MEMBER(BallotAnswer, reserved1),
+                     LICHT_MEMBER(BallotAnswer, reserved2)),
         LICHT_RECORD(AdaptiveTileRecord, LICHT_MEMBER(AdaptiveTileRecord, end),
                      LICHT_MEMBER(AdaptiveTileRecord, behind)),
         LICHT_RECORD(TonemapPush, LICHT_MEMBER(TonemapPush, exposure), LICHT_MEMBER(TonemapPush, curve)),
