@@ -63,6 +63,7 @@ void GpuLights::uploadEnvironment(Uploads& uploads, const Environment* environme
                         environment != nullptr ? environment->name : "none", map.width, map.height, limit));
     environment_size_ = uvec2(map.width, map.height);
     environment_peak_ = drawn.peak;
+    environment_turn_ = environment != nullptr ? environment->turn : 0.0F;
     std::vector<vec4> texels;
     texels.reserve(map.texels.size() / 3);
     for (std::size_t i = 0; i + 2 < map.texels.size(); i += 3)
@@ -99,6 +100,7 @@ void GpuLights::describe(FrameRecord& frame) const {
     frame.suns = suns_;
     frame.environment_size = environment_size_;
     frame.environment_peak = environment_peak_;
+    frame.environment_turn = environment_turn_;
     frame.has_sky = has_sky_;
 }
 

@@ -49,6 +49,7 @@ private:
     LightChoice lights_by_ = LightChoice::power;
     uvec2 environment_size_{1, 1};
     float environment_peak_ = 0.0F;
+    float environment_turn_ = 0.0F;
     uint light_slots_ = 0;
     uint tree_lights_ = 0;
     uint environment_light_ = kNoIndex;

@@ -152,6 +152,7 @@ bool fillsAngle(const PunctualLight& light);
 struct Environment {
     std::string name;
     Image radiance;
+    float turn = 0.0F;  ///< about +Y, counter-clockwise from above, in whole turns: [0,1)
 };
 
 /// Why something was left out of a scene or changed while loading. One line each.

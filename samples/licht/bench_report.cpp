@@ -41,7 +41,7 @@ Json kindJson(const BenchKind& k) {
             {"embree_packet_mrays_per_second", medianOf(k.embree_packet_mrays)},
             {"embree_packet_call", k.packet_call.empty() ? Json(nullptr) : Json(k.packet_call)},
             {"embree_leaks", orNull(k.embree_leaks)},
-            {"cut_walks", k.truncated_traversals}};
+            {"truncated_traversals", k.truncated_traversals}};
 }
 
 std::string cell(const std::optional<double>& value, int digits) {

@@ -23,7 +23,7 @@ struct BenchKind {
     std::optional<BenchSamples> embree_packet_ratio;
     std::optional<std::uint64_t> mismatches;  ///< against Embree
     std::optional<std::uint64_t>
-        embree_leaks;             ///< of Embree's default mode: its robust mode sides with the device
+        embree_leaks;  ///< of Embree's default mode: its robust mode sides with the device
     std::uint64_t truncated_traversals = 0;  ///< ended by the driver before they were done
     std::optional<double> nodes_per_ray;
     std::optional<double> triangles_per_ray;

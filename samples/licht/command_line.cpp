@@ -11,6 +11,7 @@
 #include "licht/core/memory.h"
 #include "licht/settings/settings_table.h"
 #include "samples/licht/text.h"
+#include "samples/licht/unknown_words.h"
 #include "samples/scenes/builtin.h"
 
 namespace licht {
@@ -76,6 +77,15 @@ void addSource(CLI::App& app, SceneRequest& source) {
                  source.background = parseColour(option, text);
              })
         ->excludes(environment);
+    addValue(app, "--environment-rotation", "DEGREES",
+             "Turn the sky about +Y, counter-clockwise from above; the middle of a map is at -Z (default: 0)",
+             [&source](std::string_view option, std::string_view text) {
+                 source.environment_rotation = parseNumber(option, text, -kMostRotation, kMostRotation);
+             });
+    addValue(app, "--environment-strength", "FACTOR", "Multiply the sky's radiance (default: 1)",
+             [&source](std::string_view option, std::string_view text) {
+                 source.environment_strength = parsePositive(option, text);
+             });
     addValue(app, "--sun-angle", "DEGREES",
              fmt::format(
                  "Angle that directional lights fill, 0 to {}; the sun's is 0.53 (default: 0, sharp shadows)",
@@ -85,8 +95,10 @@ void addSource(CLI::App& app, SceneRequest& source) {
              });
 }
 
-void addSize(CLI::App& app, std::optional<uvec2>& size, const std::string& default_size) {
-    addValue(app, "--size", "WxH", "Width and height in pixels (default: " + default_size + ")",
+void addSize(CLI::App& app, std::optional<SizeRequest>& size, const std::string& default_size) {
+    addValue(app, "--size", "WxH",
+             "Width and height in pixels; W or xH alone: the other side by the camera (default: " +
+                 default_size + ")",
              [&size](std::string_view option, std::string_view text) { size = parseSize(option, text); });
 }
 
@@ -124,7 +136,7 @@ void addRender(CLI::App& app, RenderOptions& options) {
         ->allow_extra_args(false)
         ->type_name("FILE");
     const std::span<const Setting> table = settingsTable();
-    addSize(app, options.size, "height 540, width by the camera, 960x540 if it does not say");
+    addSize(app, options.size, "x540, 16:9 if the camera does not say");
     addSettings(app, table, SettingGroup::look, options.run);
     addDevice(app, options.device);
     addSettings(app, table, SettingGroup::stop, options.run);
@@ -227,6 +239,37 @@ void checkTogether(const RenderOptions& options) {
                                      run.render.first_sample, *run.samples, kMostSamples));
 }
 
+/// An option whose value may be left out takes it behind a "="; a word that can only be its value is joined.
+void joinImpliedValues(std::vector<std::string>& words) {
+    for (const Setting& setting : settingsTable()) {
+        if (setting.implied.empty()) continue;
+        for (std::size_t i = 0; i + 1 < words.size(); ++i) {
+            const auto& names = setting.names;
+            if (words[i] != setting.option || std::ranges::find(names, words[i + 1]) == names.end()) continue;
+            words[i] += "=" + words[i + 1];
+            words.erase(words.begin() + static_cast<std::ptrdiff_t>(i) + 1);
+        }
+    }
+}
+
+/// Of what was typed, in its order, what no option and no argument took.
+std::string describeExtras(const std::vector<std::string>& words, const CLI::App& app) {
+    const CLI::App& command = app.get_subcommands().empty() ? app : *app.get_subcommands().front();
+    std::vector<std::string> options;
+    for (const CLI::Option* option : command.get_options())
+        for (const std::string& name : option->get_lnames()) options.push_back("--" + name);
+    std::vector<std::string> left = app.remaining(true);
+    std::vector<std::string> unknown;
+    for (const std::string& word : words) {
+        const auto found = std::ranges::find(left, word);
+        if (found == left.end()) continue;
+        unknown.push_back(word);
+        left.erase(found);
+    }
+    const std::string name = &command == &app ? "" : command.get_name() + " ";
+    return fmt::format("{} (see 'licht {}--help')", describeUnknown(unknown, options), name);
+}
+
 /// What was typed, with `help [COMMAND]` and `version` for those who try them.
 std::vector<std::string> commandWords(int argument_count, const char* const* arguments) {
     std::vector<std::string> words(arguments + std::min(argument_count, 1), arguments + argument_count);
@@ -281,13 +324,15 @@ Command parseCommandLine(int argument_count, const char* const* arguments) {
             "'{0}' is no command; render, view, info, bench, devices, compare and help are. To draw a scene: "
             "licht render {0}",
             words[0]));
+    joinImpliedValues(words);
     try {
-        std::reverse(words.begin(), words.end());  // as CLI11 takes them
-        app.parse(std::move(words));
+        app.parse(std::vector<std::string>(words.rbegin(), words.rend()));  // as CLI11 takes them
     } catch (const CLI::CallForHelp&) {
         return PrintedText{app.help()};
     } catch (const CLI::CallForVersion& call) {
         return PrintedText{std::string(call.what()) + "\n"};
+    } catch (const CLI::ExtrasError&) {
+        throw InputError(oneLine(describeExtras(words, app)));
     } catch (const CLI::ParseError& error) {
         throw InputError(fmt::format("{} (see 'licht --help')", oneLine(error.what())));
     }

@@ -25,20 +25,21 @@ auto choose(std::string_view option, std::string_view text, const Choices& choic
 
 }  // namespace
 
-uvec2 parseSize(std::string_view option, std::string_view text) {
-    const std::size_t cross = text.find('x');
-    if (cross != std::string_view::npos && text.find('+') == std::string_view::npos) {
-        const auto width = wholeNumber<std::uint32_t>(text.substr(0, cross));
-        const auto height = wholeNumber<std::uint32_t>(text.substr(cross + 1));
-        const auto inRange = [](std::optional<std::uint32_t> side) {
-            return side && *side >= 1 && *side <= kMaxPictureSide;
-        };
-        if (inRange(width) && inRange(height) && std::uint64_t{*width} * *height <= kMaxPicturePixels)
-            return {*width, *height};
+SizeRequest parseSize(std::string_view option, std::string_view text) {
+    const std::size_t cross = std::min(text.find('x'), text.size());
+    const std::array sides{text.substr(0, cross), text.substr(std::min(cross + 1, text.size()))};
+    std::array<std::uint32_t, 2> said{};
+    bool good = text.find('+') == std::string_view::npos;
+    for (std::size_t i = 0; i < sides.size(); ++i) {
+        if (sides[i].empty()) continue;
+        said[i] = wholeNumber<std::uint32_t>(sides[i]).value_or(0);
+        good = good && said[i] >= 1 && said[i] <= kMaxPictureSide;
     }
-    refuseValue(option, text,
-                fmt::format("WIDTHxHEIGHT, each 1 to {} and at most {} pixels together", kMaxPictureSide,
-                            kMaxPicturePixels));
+    if (!good || (said[0] == 0 && said[1] == 0) || std::uint64_t{said[0]} * said[1] > kMaxPicturePixels)
+        refuseValue(option, text,
+                    fmt::format("WIDTHxHEIGHT, WIDTH or xHEIGHT, each 1 to {} and at most {} pixels together",
+                                kMaxPictureSide, kMaxPicturePixels));
+    return {said[0], said[1]};
 }
 
 std::uint64_t parseTriangles(std::string_view option, std::string_view text) {

@@ -15,7 +15,13 @@ namespace licht {
 
 inline constexpr std::uint32_t kMaxPictureSide = 16384;
 inline constexpr std::uint64_t kMaxPicturePixels = std::uint64_t{1} << 27U;
-inline constexpr double kWidestSun = 180.0;  ///< degrees
+inline constexpr double kWidestSun = 180.0;    ///< degrees
+inline constexpr double kMostRotation = 3600;  ///< degrees, of a sky
+/// Each side 0 (as the other side and the camera say) to kMaxPictureSide, not both 0.
+struct SizeRequest {
+    std::uint32_t width = 0;
+    std::uint32_t height = 0;
+};
 
 /// Which scene, seen how, lit by what. Shared by render and view.
 struct SceneRequest {
@@ -23,16 +29,18 @@ struct SceneRequest {
     std::optional<std::string> camera;       ///< name or index; none: the first, or one that frames the scene
     std::optional<std::string> environment;  ///< path of an .hdr or .exr
     std::optional<vec3> background;          ///< cd/m^2, a constant sky; excludes environment
-    std::optional<double> sun_angle;         ///< degrees that directional lights fill; none: the scene's own
-    std::uint64_t triangles = 0;             ///< of a built-in scene that takes a count; 0: its own
-    bool strict = false;                     ///< images that cannot be read are errors
+    std::optional<double> environment_rotation;  ///< degrees about +Y, counter-clockwise from above
+    std::optional<double> environment_strength;  ///< factor on the sky
+    std::optional<double> sun_angle;  ///< degrees that directional lights fill; none: the scene's own
+    std::uint64_t triangles = 0;      ///< of a built-in scene that takes a count; 0: its own
+    bool strict = false;              ///< images that cannot be read are errors
 };
 
 struct RenderOptions {
     SceneRequest source;
     RunSettings run;                             ///< render.size is filled in from the field beside it
     std::vector<std::filesystem::path> outputs;  ///< .png and .exr; empty: "<scene name>.png"
-    std::optional<uvec2> size;
+    std::optional<SizeRequest> size;
     std::string device;
     std::optional<std::filesystem::path> report;
     bool quiet = false;
@@ -48,7 +56,7 @@ inline constexpr std::uint32_t kDefaultBenchRuns = 5;
 
 struct BenchOptions {
     SceneRequest source;
-    std::optional<uvec2> size;
+    std::optional<SizeRequest> size;
     std::uint32_t runs = kDefaultBenchRuns;
     BvhQuality quality = RenderSettings{}.bvh_quality;
     std::string device;
@@ -69,7 +77,7 @@ struct CompareOptions {
 struct ViewOptions {
     SceneRequest source;
     RunSettings run;
-    std::optional<uvec2> size;
+    std::optional<SizeRequest> size;
     std::string device;
     std::uint64_t frames = 0;  ///< 0: until the window is closed
 };
@@ -78,8 +86,9 @@ struct ViewOptions {
 std::uint64_t parseTriangles(std::string_view option, std::string_view text);
 /// A share of the machine's memory: "500M", "8G", "2.5GiB"; at least 16 MiB.
 std::uint64_t parseMemory(std::string_view option, std::string_view text);
-/// "960x540": each side 1 to kMaxPictureSide, at most kMaxPicturePixels together.
-uvec2 parseSize(std::string_view option, std::string_view text);
+/// "960x540", "960", "960x" or "x540": each side that is said 1 to kMaxPictureSide, at most kMaxPicturePixels
+/// together.
+SizeRequest parseSize(std::string_view option, std::string_view text);
 /// "R,G,B": finite, not negative.
 vec3 parseColour(std::string_view option, std::string_view text);
 /// "albedo,normal,..." or "all".

@@ -159,6 +159,9 @@ int render(const RenderOptions& options) {
     report.load_seconds = secondsSince(load_start);
     report.scene = options.source.scene;
     report.camera = shot.camera_name;
+    if (source.scene.environment) report.environment = source.scene.environment->name;
+    report.environment_rotation = options.source.environment_rotation.value_or(0.0);
+    report.environment_strength = options.source.environment_strength.value_or(1.0);
     report.size = shot.size;
     report.asked = options.run;
     report.notes = source.scene.notes;

@@ -67,6 +67,13 @@ ordered_json samplingJson(const RenderReport& report) {
     return sampling;
 }
 
+ordered_json environmentJson(const RenderReport& report) {
+    if (report.environment.empty()) return nullptr;
+    return {{"name", report.environment},
+            {"rotation_degrees", report.environment_rotation},
+            {"strength", report.environment_strength}};
+}
+
 ordered_json adaptiveJson(const RenderReport& report) {
     if (!report.settings.adaptive) return nullptr;
     return {{"fewest_samples", report.fewest_samples}, {"most_samples", report.most_samples}};
@@ -86,6 +93,7 @@ std::string reportJson(const RenderReport& report) {
     ordered_json json;
     json["scene"] = report.scene;
     json["camera"] = report.camera;
+    json["environment"] = environmentJson(report);
     json["device"] = report.device;
     json["driver"] = report.driver;
     json["size"] = {report.size.x, report.size.y};
@@ -118,7 +126,7 @@ std::string reportJson(const RenderReport& report) {
     json["orders"] = ordersJson(report);
     json["tail"] = tailJson(report);
     json["nonfinite_samples"] = statistics.nonfinite_samples;
-    json["cut_walks"] = statistics.truncated_traversals;
+    json["truncated_traversals"] = statistics.truncated_traversals;
     if (statistics.environment_samples > 0)
         json["environment_tries_per_sample"] = static_cast<double>(statistics.environment_tries) /
                                                static_cast<double>(statistics.environment_samples);
@@ -140,6 +148,9 @@ std::vector<std::pair<std::string, std::string>> reportAttributes(const RenderRe
         {"licht.version", LICHT_VERSION},
         {"licht.scene", report.scene},
         {"licht.camera", report.camera},
+        {"licht.environment", report.environment.empty() ? "none" : report.environment},
+        {"licht.environmentRotation", fmt::format("{}", report.environment_rotation)},
+        {"licht.environmentStrength", fmt::format("{}", report.environment_strength)},
         {"licht.spp", fmt::format("{}", report.samples)},
         {"licht.declaredBias", bias.empty() ? "none" : bias},
         {"licht.device", report.device},

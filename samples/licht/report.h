@@ -23,6 +23,9 @@ struct RenderReport {
     std::string device;
     std::string driver;
     std::string camera;
+    std::string environment;            ///< its name; empty: there is none
+    double environment_rotation = 0.0;  ///< degrees about +Y
+    double environment_strength = 1.0;
     uvec2 size{0};
     std::uint32_t samples = 0;
     RunSettings asked;

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <system_error>
 
 #include "licht/core/error.h"
@@ -19,8 +20,8 @@ namespace licht {
 namespace {
 
 constexpr std::uint32_t kDefaultHeight = 540;
-constexpr std::uint32_t kDefaultWidth = 960;
-constexpr uvec2 kTestSceneSize{512, 512};
+constexpr std::uint32_t kTestSceneHeight = 512;
+constexpr double kDefaultAspect = 16.0 / 9.0;
 
 /// The square test scenes are drawn at the size their references have.
 bool isTestScene(const NamedScene& source) {
@@ -68,12 +69,24 @@ std::string cameraWords(const Camera& camera) {
                                  known.empty() ? "none" : known));
 }
 
-uvec2 defaultSize(const NamedScene& source, const Camera* camera) {
-    if (isTestScene(source)) return kTestSceneSize;
-    if (camera == nullptr || !(camera->aspect > 0.0F)) return {kDefaultWidth, kDefaultHeight};
-    const float width = std::round(static_cast<float>(kDefaultHeight) * camera->aspect);
-    return {static_cast<std::uint32_t>(std::clamp(width, 1.0F, static_cast<float>(kMaxPictureSide))),
-            kDefaultHeight};
+/// Width over height.
+double defaultAspect(const NamedScene& source, const Camera* camera) {
+    if (isTestScene(source)) return 1.0;
+    if (camera == nullptr || !(camera->aspect > 0.0F)) return kDefaultAspect;
+    return static_cast<double>(camera->aspect);
+}
+
+/// What is not said of a size follows from the camera.
+uvec2 completeSize(SizeRequest size, double aspect) {
+    const auto side = [](double pixels) {
+        return static_cast<std::uint32_t>(std::clamp(std::round(pixels), 1.0, double{kMaxPictureSide}));
+    };
+    if (size.width == 0) size.width = side(size.height * aspect);
+    if (size.height == 0) size.height = side(size.width / aspect);
+    if (std::uint64_t{size.width} * size.height > kMaxPicturePixels)
+        throw InputError(
+            fmt::format("--size: {}x{} are more than {} pixels", size.width, size.height, kMaxPicturePixels));
+    return {size.width, size.height};
 }
 
 std::string scenesThatCount() {
@@ -105,6 +118,29 @@ NamedScene loadNamedScene(const SceneRequest& request) {
     return {loadGltf(path, {.strict = request.strict}), path.stem().string(), false};
 }
 
+namespace {
+
+/// Of the sky that is there, whoever brought it.
+void turnSky(Scene& scene, double degrees) {
+    if (!scene.environment) throw InputError("--environment-rotation: the scene has no sky to turn");
+    const double turns = degrees / 360.0;
+    const auto turn = static_cast<float>(turns - std::floor(turns));
+    scene.environment->turn = turn < 1.0F ? turn : 0.0F;
+}
+
+void strengthenSky(Scene& scene, double factor) {
+    if (!scene.environment) throw InputError("--environment-strength: the scene has no sky");
+    for (float& value : scene.environment->radiance.texels) {
+        const double stronger = static_cast<double>(value) * factor;
+        if (stronger > static_cast<double>(std::numeric_limits<float>::max()))
+            throw InputError(fmt::format("--environment-strength {}: a texel of {} cd/m^2 grows out of range",
+                                         factor, value));
+        value = static_cast<float>(stronger);
+    }
+}
+
+}  // namespace
+
 NamedScene loadScene(const SceneRequest& request) {
     NamedScene source = loadNamedScene(request);
     Scene& scene = source.scene;
@@ -125,6 +161,8 @@ NamedScene loadScene(const SceneRequest& request) {
                                fmt::format("{} in the scene gives light: lit by a neutral sky of 1 cd/m^2",
                                            dim ? "nothing bright enough to see" : "nothing")});
     }
+    if (request.environment_rotation) turnSky(scene, *request.environment_rotation);
+    if (request.environment_strength) strengthenSky(scene, *request.environment_strength);
     if (request.sun_angle)
         for (PunctualLight& light : scene.lights)
             light.angular_diameter = glm::radians(static_cast<float>(*request.sun_angle));
@@ -132,7 +170,7 @@ NamedScene loadScene(const SceneRequest& request) {
 }
 
 Shot chooseShot(const NamedScene& source, const std::optional<std::string>& camera,
-                std::optional<uvec2> size) {
+                std::optional<SizeRequest> size) {
     const Scene& scene = source.scene;
     std::optional<std::size_t> index;
     if (camera) {
@@ -142,7 +180,9 @@ Shot chooseShot(const NamedScene& source, const std::optional<std::string>& came
         index = 0;
     }
     Shot shot;
-    shot.size = size.value_or(defaultSize(source, index ? &scene.cameras[*index] : nullptr));
+    const SizeRequest by_default{0, isTestScene(source) ? kTestSceneHeight : kDefaultHeight};
+    shot.size = completeSize(size.value_or(by_default),
+                             defaultAspect(source, index ? &scene.cameras[*index] : nullptr));
     if (index) {
         shot.camera = scene.cameras[*index];
         shot.camera_name = shot.camera.name.empty() ? std::to_string(*index) : shot.camera.name;

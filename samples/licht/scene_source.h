@@ -31,7 +31,7 @@ struct Shot {
     uvec2 size{0};
 };
 Shot chooseShot(const NamedScene& source, const std::optional<std::string>& camera,
-                std::optional<uvec2> size);
+                std::optional<SizeRequest> size);
 
 /// Warnings of loading, one line each on stderr.
 void printWarnings(const Scene& scene);

@@ -15,10 +15,18 @@ layout(constant_id = kConstantEnvironmentSampling) const uint kEnvironmentSampli
 layout(binding = kBindingEnvironmentMap) uniform sampler2D environment_map;
 layout(binding = kBindingEnvironmentTable) uniform usampler2D environment_table;  // engine/light/environment_table.h
 
+// The map may be turned about +Y: its column u is met at u - turn.
+vec2 mapFromDirection(vec3 direction) {
+    vec2 uv = latlongFromDirection(direction);
+    uv.x += frame.environment_turn;
+    return uv.x > 1.0 ? vec2(uv.x - 1.0, uv.y) : uv;
+}
+vec3 directionFromMap(float u, float y, float s) { return directionFromLatlong(u - frame.environment_turn, y, s); }
+
 // Bilinear by hand: linear filtering of fp32 images is optional in Vulkan, and its weights have few bits.
 vec3 environmentRadiance(vec3 direction) {
     ivec2 size = ivec2(frame.environment_size);
-    vec2 x = latlongFromDirection(direction) * vec2(size) - 0.5;
+    vec2 x = mapFromDirection(direction) * vec2(size) - 0.5;
     ivec2 i = ivec2(floor(x));
     vec2 f = x - vec2(i);
     int left = (i.x + size.x) % size.x;
@@ -49,12 +57,12 @@ vec3 directionInTexel(uvec2 texel, float u, float v) {
     uint row = south ? size.y - 1u - texel.y : texel.y;
     float below_pole = mix(rowEdge(row), rowEdge(row + 1u), south ? 1.0 - v : v);
     float sine = sqrt(below_pole * (2.0 - below_pole));
-    return directionFromLatlong((float(texel.x) + u) / float(size.x), south ? below_pole - 1.0 : 1.0 - below_pole, sine);
+    return directionFromMap((float(texel.x) + u) / float(size.x), south ? below_pole - 1.0 : 1.0 - below_pole, sine);
 }
 
 uvec2 texelOf(vec3 direction) {
     uvec2 size = frame.environment_size;
-    return min(uvec2(latlongFromDirection(direction) * vec2(size)), size - 1u);
+    return min(uvec2(mapFromDirection(direction) * vec2(size)), size - 1u);
 }
 
 // Inversion: the share of a texel is that of its row times its own within it, both as steps between ends.

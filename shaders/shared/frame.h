@@ -37,8 +37,8 @@ struct FrameRecord {
     float environment_peak;  // largest density of a direction to it, 1/sr
     uint first_sun;          // of the lights; so many stand together
     uint suns;
+    float environment_turn;  // of the map about +Y, counter-clockwise from above, in whole turns: [0,1)
     uint reserved0;
-    uint reserved1;
 };
 
 // Push constants of the passes that draw samples.

@@ -33,7 +33,7 @@ void expectKind(const Json& rays) {
     expectPositive(rays, "mrays_per_second");
     expectPositive(rays, "nodes_per_ray");
     ASSERT_TRUE(rays["triangles_per_ray"].is_number());
-    EXPECT_EQ(rays["cut_walks"], 0);
+    EXPECT_EQ(rays["truncated_traversals"], 0);
     const auto spread = rays["mrays_per_second_spread"];
     EXPECT_LE(spread[0], rays["mrays_per_second"]);
     EXPECT_GE(spread[1], rays["mrays_per_second"]);

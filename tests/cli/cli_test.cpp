@@ -107,6 +107,47 @@ TEST(Render, DarkSceneGetsANeutralSkyAndSaysSo) {
         for (const float value : picture.find(channel)->values) EXPECT_NEAR(value, 1.0F, kTolerance);
 }
 
+TEST(Render, SkiesAreTurnedAndMadeStronger) {
+    const ScratchFolder folder;
+    // The middle of the map, at -Z, is red, its rest green.
+    ExrPicture map;
+    map.width = 8;
+    map.height = 4;
+    std::vector<float> red(32, 0.0F);
+    std::vector<float> green(32, 1.0F);
+    for (std::size_t row = 0; row < 4; ++row)
+        for (std::size_t column = 2; column < 6; ++column)
+            std::swap(red[row * 8 + column], green[row * 8 + column]);
+    map.channels = {{"R", red}, {"G", green}, {"B", std::vector<float>(32, 0.0F)}};
+    writeExr(folder.path() / "sky.exr", map);
+    const auto middle = [&](const Words& more) {
+        Words words{"render", "empty",         "--size",  "9",  "--spp",
+                    "1",      "--environment", "sky.exr", "-o", "a.exr"};
+        words.insert(words.end(), more.begin(), more.end());
+        runWell(folder, words);
+        const ExrPicture picture = readExr(folder.path() / "a.exr");
+        EXPECT_EQ(picture.width, 9);
+        EXPECT_EQ(picture.height, 5);
+        EXPECT_EQ(attribute(picture, "licht.environment"), "sky.exr");
+        const std::size_t at = 2 * 9 + 4;
+        return std::pair{picture.find("R")->values[at], picture.find("G")->values[at]};
+    };
+    EXPECT_EQ(middle({}), std::pair(1.0F, 0.0F)) << "cameras look along -Z";
+    EXPECT_EQ(middle({"--environment-rotation", "180"}), std::pair(0.0F, 1.0F));
+    EXPECT_EQ(middle({"--environment-rotation=-540", "--environment-strength", "4"}), std::pair(0.0F, 4.0F));
+    EXPECT_EQ(middle({"--environment-rotation", "360"}), std::pair(1.0F, 0.0F));
+}
+
+TEST(Render, TakesTheValueOfQueuesAsAWordToo) {
+    const ScratchFolder folder;
+    for (const Words& said : {Words{"--queues", "off", "cornell"}, Words{"cornell", "--queues=off"}}) {
+        Words words{"render", "--size", "8", "--spp", "1", "--report", "report.json"};
+        words.insert(words.end(), said.begin(), said.end());
+        runWell(folder, words);
+        EXPECT_EQ(json::parse(folder.read("report.json"))["settings"]["queues"], "off");
+    }
+}
+
 TEST(Render, BackgroundIsTheSkyAskedFor) {
     const ScratchFolder folder;
     const Outcome outcome = runWell(

@@ -9,11 +9,18 @@ namespace licht {
 namespace {
 
 TEST(ParseSize, TakesWhatIsInRange) {
-    EXPECT_EQ(parseSize("--size", "960x540"), uvec2(960, 540));
-    EXPECT_EQ(parseSize("--size", "1x1"), uvec2(1, 1));
-    EXPECT_EQ(parseSize("--size", "16384x8192"), uvec2(16384, 8192));  // 2^27 pixels exactly
-    for (const char* bad : {"", "x", "0x1", "1x0", "16385x1", "16384x8193", "-1x1", "1x1x1", "1X1", " 1x1",
-                            "1x1 ", "1.5x1", "+1x1"})
+    const auto parsed = [](const char* text) {
+        const SizeRequest size = parseSize("--size", text);
+        return uvec2(size.width, size.height);
+    };
+    EXPECT_EQ(parsed("960x540"), uvec2(960, 540));
+    EXPECT_EQ(parsed("1x1"), uvec2(1, 1));
+    EXPECT_EQ(parsed("16384x8192"), uvec2(16384, 8192));  // 2^27 pixels exactly
+    EXPECT_EQ(parsed("1920"), uvec2(1920, 0));
+    EXPECT_EQ(parsed("1920x"), uvec2(1920, 0));
+    EXPECT_EQ(parsed("x1080"), uvec2(0, 1080));
+    for (const char* bad : {"", "x", "0", "16385", "x0", "xx", "0x1", "1x0", "16385x1", "16384x8193", "-1x1",
+                            "1x1x1", "1X1", " 1x1", "1x1 ", "1.5x1", "+1x1"})
         EXPECT_THROW(parseSize("--size", bad), InputError) << bad;
 }
 

@@ -71,6 +71,10 @@ std::vector<Environment> environments() {
     for (int y = 0; y < 7; ++y)
         for (int x = 0; x < 13; ++x) set(odd, x, y, value(random));
     all.push_back(odd);
+    Environment turned = odd;
+    turned.name = "turned";
+    turned.turn = 0.3F;
+    all.push_back(turned);
     return all;
 }
 Environment singleTexel(float value) {
@@ -81,7 +85,7 @@ Environment singleTexel(float value) {
 
 constexpr std::array kMethods{EnvironmentSampling::alias, EnvironmentSampling::inversion,
                               EnvironmentSampling::rejection};
-constexpr int kTests = 3 * 7;  // chi-square tests in this file: one a method and environment
+constexpr int kTests = 3 * 8;  // chi-square tests in this file: one a method and environment
 
 struct Answer {
     vec4 direction_pdf;
@@ -101,9 +105,11 @@ struct Place {
     double v;
     double error_u;
 };
-Place placeOf(const dvec3& w) {
+Place placeOf(const Environment& environment, const dvec3& w) {
     const double horizontal = std::hypot(w.x, w.z);
-    return {0.5 + std::atan2(w.x, -w.z) / (2.0 * kPi), std::atan2(horizontal, w.y) / kPi,
+    // A map turned to the left shows what was to the right.
+    const double u = 0.5 + std::atan2(w.x, -w.z) / (2.0 * kPi) + d(environment.turn);
+    return {u > 1.0 ? u - 1.0 : u, std::atan2(horizontal, w.y) / kPi,
             kErrorU + 4.0 * kUnit / std::max(horizontal, 1e-30)};
 }
 
@@ -133,6 +139,7 @@ public:
         FrameRecord frame{};
         frame.environment_size = uvec2(map.width, map.height);
         frame.environment_peak = table.peak;
+        frame.environment_turn = environment.turn;
         frame.seed = 7;
         frame_ = gpu::uploadBuffer(device, "FrameBlock", std::span<const FrameRecord>(&frame, 1),
                                    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
@@ -342,7 +349,7 @@ TEST_P(EveryMethod, directionsFollowTheTable) {
         for (const Answer& answer : device.sample()) {
             const dvec3 w(answer.direction_pdf);
             ASSERT_NEAR(glm::length(w), 1.0, 1e-6);
-            const Place place = placeOf(w);
+            const Place place = placeOf(environment, w);
             const double x =
                 std::min(place.u * static_cast<double>(width), static_cast<double>(width) - 1e-9);
             const auto row = static_cast<std::size_t>(
@@ -370,7 +377,7 @@ TEST_P(EveryMethod, bothDensitiesAgree) {
             ASSERT_GT(pdf, 0.0);
             inverse += 1.0 / pdf;
             inverse2 += 1.0 / (pdf * pdf);
-            const Place place = placeOf(dvec3(answer.direction_pdf));
+            const Place place = placeOf(environment, dvec3(answer.direction_pdf));
             const double edge_u = std::abs(place.u * width - std::round(place.u * width)) / width;
             const double edge_v = std::abs(place.v * height - std::round(place.v * height)) / height;
             if (edge_u < place.error_u || edge_v < kErrorV) {
@@ -420,7 +427,7 @@ TEST_P(EveryMethod, densityIntegratesToOneAndRadianceIsBilinear) {
         double integral = 0.0;
         for (std::size_t i = 0; i < answers.size(); ++i) {
             integral += d(answers[i].radiance_pdf.w) * areas[i];
-            const Place place = placeOf(dvec3(directions[i]));
+            const Place place = placeOf(environment, dvec3(directions[i]));
             const double expected = radiance(map, place.u * map.width, place.v * map.height);
             // The steepest interpolant climbs by the largest value within a texel.
             const double moved = place.error_u * map.width + kErrorV * map.height;
@@ -516,6 +523,23 @@ TEST(Rejection, triesAreAsTheLawSays) {
     }
 }
 
+// About +Y, counter-clockwise from above: a quarter carries what was at -Z to -X.
+TEST(EnvironmentTurn, AQuarterCarriesTheMiddleOfTheMapToMinusX) {
+    Environment columns = filled("columns", 4, 1, 0.0F);
+    for (int x = 0; x < 4; ++x) set(columns, x, 0, static_cast<float>(1 << x));
+    const auto seenAlong = [&](float x, float z) {
+        OnDevice device(columns, EnvironmentSampling::alias);
+        return d(device.lookUp({vec4(x, 0.0F, z, 0.0F)}).front().radiance_pdf.x);
+    };
+    // Each of these directions lies between two columns.
+    EXPECT_NEAR(seenAlong(0.0F, -1.0F), 3.0, 1e-5);
+    columns.turn = 0.25F;
+    EXPECT_NEAR(seenAlong(-1.0F, 0.0F), 3.0, 1e-5);
+    EXPECT_NEAR(seenAlong(0.0F, -1.0F), 6.0, 1e-5);
+    columns.turn = 0.5F;
+    EXPECT_NEAR(seenAlong(0.0F, 1.0F), 3.0, 1e-5);
+}
+
 // Sobol's numbers leave the stretch of the map from which a row and a column are drawn whole.
 TEST(Inversion, keepsEvenNumbersEven) {
     const Environment constant = filled("constant", 64, 32, 1.0F);
@@ -524,7 +548,7 @@ TEST(Inversion, keepsEvenNumbersEven) {
         std::vector<std::uint64_t> counts(64 * 32);
         for (const Answer& answer : OnDevice(constant, how, kSamplerBlue).sample()) {
             const dvec3 w(answer.direction_pdf);
-            const auto column = static_cast<std::size_t>(std::min(placeOf(w).u * 64.0, 63.0));
+            const auto column = static_cast<std::size_t>(std::min(placeOf(constant, w).u * 64.0, 63.0));
             const auto row = static_cast<std::size_t>(std::clamp(16.0 - 16.0 * w.y, 0.0, 31.0));
             ++counts[row * 64 + column];
         }
