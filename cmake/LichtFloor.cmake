@@ -11,6 +11,16 @@ if(LICHT_SANITIZE)
   add_link_options(-fsanitize=${LICHT_SANITIZE})
 endif()
 
+# Half of what the compiler reads is the standard library, glm and fmt again and again: read once, they are shared by all floors. A
+# compiler cache keeps no such files apart and does more, so with one (and with the tests, where each file has to stand on its own
+# includes) they are left out.
+set(LICHT_PRECOMPILED_DEFAULT ON)
+if(CMAKE_CXX_COMPILER_LAUNCHER OR LICHT_BUILD_TESTS)
+  set(LICHT_PRECOMPILED_DEFAULT OFF)
+endif()
+option(LICHT_PRECOMPILED_HEADERS "Read the standard library, glm and fmt once" ${LICHT_PRECOMPILED_DEFAULT})
+add_compile_options(-pthread) # for all or for none: OpenEXR asks for it, and a precompiled header is read under its own options only
+
 # licht_include_root(TARGET SCOPE NAME FOLDER): FOLDER's headers become <NAME/...> for TARGET and its users. The library's names are
 # licht/FOLDER, which are those of engine/ (and of shaders/shared); the samples' are samples/FOLDER, as they lie there.
 function(licht_include_root target scope name folder)
@@ -19,6 +29,20 @@ function(licht_include_root target scope name folder)
   file(MAKE_DIRECTORY ${parent})
   file(CREATE_LINK ${folder} ${root}/${name} SYMBOLIC)
   target_include_directories(${target} ${scope} $<BUILD_INTERFACE:${root}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+endfunction()
+
+# licht_precompiled(TARGET): TARGET reads the shared headers from what licht_core, the lowest floor, has precompiled.
+function(licht_precompiled target)
+  if(NOT LICHT_PRECOMPILED_HEADERS)
+    return()
+  endif()
+  if(target STREQUAL "licht_core")
+    target_precompile_headers(licht_core PRIVATE
+      <algorithm> <array> <bit> <cmath> <cstdint> <filesystem> <functional> <limits> <map> <memory> <numeric> <optional> <span> <string>
+      <string_view> <utility> <vector> <fmt/format.h> <licht/core/math.h>)
+  else()
+    target_precompile_headers(${target} REUSE_FROM licht_core)
+  endif()
 endfunction()
 
 # licht_floor(NAME LINKS ... PRIVATE_LINKS ...): every .cpp of this folder becomes the library licht_NAME, alias licht::NAME.
@@ -31,6 +55,7 @@ function(licht_floor name)
   licht_include_root(licht_${name} PUBLIC licht/${name} ${CMAKE_CURRENT_SOURCE_DIR})
   target_compile_features(licht_${name} PUBLIC cxx_std_20)
   target_link_libraries(licht_${name} PUBLIC ${arg_LINKS} PRIVATE ${arg_PRIVATE_LINKS} $<BUILD_INTERFACE:licht_warnings>)
+  licht_precompiled(licht_${name})
   set_property(GLOBAL APPEND PROPERTY LICHT_FLOORS licht_${name})
   set_property(GLOBAL APPEND PROPERTY LICHT_FLOOR_FOLDERS ${CMAKE_CURRENT_SOURCE_DIR})
 endfunction()
