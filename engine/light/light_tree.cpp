@@ -167,7 +167,8 @@ private:
         const glm::dvec3 extent = high - low;
         const int widest = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
         const auto halvings_left = static_cast<std::size_t>(kMostHalvings - halvings);
-        const bool short_of_halvings = std::bit_width(count - 1) + 1U >= halvings_left;
+        const bool short_of_halvings =
+            static_cast<std::size_t>(std::bit_width(count - 1)) + 1 >= halvings_left;
         double best_cost = std::numeric_limits<double>::infinity();
         int best_axis = -1;
         std::size_t best_bin = 0;

@@ -155,12 +155,10 @@ private:
 
     void overrideSparse(std::vector<Value>& values, std::size_t size) const {
         const auto& sparse = accessor_.sparse;
-        if (sparse.count < 0 || static_cast<std::size_t>(sparse.count) > accessor_.count ||
-            sparse.indices.byteOffset < 0 || sparse.values.byteOffset < 0 ||
-            !isUnsignedInteger(sparse.indices.componentType)) {
+        const auto count = static_cast<std::size_t>(sparse.count);
+        if (count > accessor_.count || !isUnsignedInteger(sparse.indices.componentType)) {
             asset_.fail(object_, "its sparse part is damaged");
         }
-        const auto count = static_cast<std::size_t>(sparse.count);
         const std::size_t index_bytes = componentBytes(sparse.indices.componentType);
         const Elements indices = elementsOf(asset_, sparse.indices.bufferView,
                                             static_cast<std::uint64_t>(sparse.indices.byteOffset),

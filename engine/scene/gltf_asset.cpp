@@ -11,6 +11,7 @@
 #include "licht/scene/gltf_container.h"
 #include "licht/scene/gltf_extensions.h"
 #include "licht/scene/gltf_meshopt.h"
+#include "licht/scene/gltf_sizes.h"
 
 namespace licht::gltf {
 namespace {
@@ -153,6 +154,26 @@ void cleanNames(Lists&... lists) {
     (clean(lists), ...);
 }
 
+/// No file is there. tinygltf takes complete sets only and asks for sizes of files since 2.9.
+template <typename Callbacks>
+Callbacks noFiles() {
+    Callbacks files{};
+    files.FileExists = [](const std::string&, void*) { return false; };
+    files.ExpandFilePath = [](const std::string& path, void*) { return path; };
+    files.ReadWholeFile = [](std::vector<unsigned char>*, std::string*, const std::string&, void*) {
+        return false;
+    };
+    files.WriteWholeFile = [](std::string*, const std::string&, const std::vector<unsigned char>&, void*) {
+        return false;
+    };
+    if constexpr (requires { files.GetFileSizeInBytes; }) {
+        files.GetFileSizeInBytes = [](std::size_t*, std::string*, const std::string&, void*) {
+            return false;
+        };
+    }
+    return files;
+}
+
 void parseModel(Json& document, Asset& asset) {
     document.erase("buffers");
     document.erase("images");
@@ -161,11 +182,7 @@ void parseModel(Json& document, Asset& asset) {
         throw InputError(fmt::format("{}: its JSON is larger than 4 GiB", asset.file));
     }
     tinygltf::TinyGLTF parser;
-    parser.SetFsCallbacks(
-        {[](const std::string&, void*) { return false; }, [](const std::string& path, void*) { return path; },
-         [](std::vector<unsigned char>*, std::string*, const std::string&, void*) { return false; },
-         [](std::string*, const std::string&, const std::vector<unsigned char>&, void*) { return false; },
-         nullptr});
+    parser.SetFsCallbacks(noFiles<tinygltf::FsCallbacks>());
     std::string errors;
     std::string warnings;
     bool parsed = false;
@@ -228,6 +245,7 @@ Asset readAsset(const std::filesystem::path& path) {
     readBuffers(document, container, asset);
     decodeMeshopt(document, asset);
     readImages(document, asset);
+    requireSizes(document, asset);
     parseModel(document, asset);
     return asset;
 }

@@ -28,10 +28,9 @@ std::array<double, kSize> numbers(const tinygltf::Value& object, const std::stri
     std::array<double, kSize> result{};
     result.fill(fallback);
     if (object.Has(key)) {
-        const tinygltf::Value& list = object.Get(key);
-        for (std::size_t i = 0; i < std::min(kSize, list.ArrayLen()); ++i) {
-            const tinygltf::Value& entry = list.Get(static_cast<int>(i));
-            result.at(i) = entry.IsNumber() ? entry.GetNumberAsDouble() : fallback;
+        const auto& list = object.Get(key).Get<tinygltf::Value::Array>();
+        for (std::size_t i = 0; i < std::min(kSize, list.size()); ++i) {
+            result.at(i) = list[i].IsNumber() ? list[i].GetNumberAsDouble() : fallback;
         }
     }
     return result;

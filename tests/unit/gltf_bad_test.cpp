@@ -110,6 +110,10 @@ TEST_F(BadGltf, AccessorsOutOfTheirBuffers) {
         {"do not fit", [](Json& j) { j["accessors"][0]["byteOffset"] = UINT64_MAX - 35; }},
         {"do not fit", [](Json& j) { j["accessors"][0]["byteOffset"] = UINT64_MAX; }},
         {"do not fit", [](Json& j) { j["accessors"][0]["byteOffset"] = 4; }},
+        {"accessor 0: count is -3, no whole number", [](Json& j) { j["accessors"][0]["count"] = -3; }},
+        {"byteOffset is -4, no whole number", [](Json& j) { j["accessors"][0]["byteOffset"] = -4; }},
+        {"byteOffset is \"4\", no whole number", [](Json& j) { j["accessors"][0]["byteOffset"] = "4"; }},
+        {"buffer view 0: byteStride is 12.5", [](Json& j) { j["bufferViews"][0]["byteStride"] = 12.5; }},
         {"do not fit", [](Json& j) { j["bufferViews"][0]["byteStride"] = 252; }},
         {"reaches beyond the 36 bytes of buffer 0",
          [](Json& j) { j["bufferViews"][0]["byteOffset"] = UINT64_MAX - 35; }},
@@ -172,9 +176,11 @@ TEST_F(BadGltf, SparsePartsThatLie) {
         return file;
     };
     expect(spoilt(nullptr, "count", 4), "its sparse part is damaged");
-    expect(spoilt(nullptr, "count", -1), "its sparse part is damaged");
+    expect(spoilt(nullptr, "count", -1), "accessor 0: sparse.count is -1, no whole number");
+    expect(spoilt(nullptr, "count", (std::uint64_t{1} << 32U) + 1), "sparse.count is 4294967297, no whole");
     expect(spoilt(nullptr, "count", 2), "do not fit");
-    expect(spoilt("indices", "byteOffset", -4), "its sparse part is damaged");
+    expect(spoilt("indices", "byteOffset", -4), "sparse.indices.byteOffset is -4, no whole number");
+    expect(spoilt("values", "byteOffset", 0.5), "sparse.values.byteOffset is 0.5, no whole number");
     expect(spoilt("indices", "byteOffset", 2147483647), "do not fit");
     expect(spoilt("indices", "componentType", test::kFloat), "its sparse part is damaged");
     expect(spoilt("indices", "componentType", test::kUnsignedInt), "do not fit");
