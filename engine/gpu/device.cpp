@@ -42,7 +42,13 @@ struct Device::Messages {
                                                   void* user) {
         auto& self = *static_cast<Messages*>(user);
         const std::scoped_lock lock(self.mutex);
-        self.texts.emplace_back(data->pMessage);
+        std::string text = data->pMessage;
+        // Newer layers leave the rule's name out of the text.
+        if (const char* rule = data->pMessageIdName;
+            rule != nullptr && text.find(rule) == std::string::npos) {
+            text = fmt::format("{}: {}", rule, text);
+        }
+        self.texts.push_back(std::move(text));
         if (self.listener) {
             self.listener(self.texts.back());
         }

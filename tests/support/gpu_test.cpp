@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <memory>
+#include <utility>
 
 /// Asked by the leak sanitiser. The validation layer (1.3.239) keeps some of its own records of command
 /// buffers for ever.
@@ -59,10 +60,9 @@ void keepLibrariesLoaded() {
 }
 
 void reportMessages() {
-    for (const std::string& message : testGpu().messages) {
+    for (const std::string& message : takeMessages()) {
         ADD_FAILURE() << "validation: " << message;
     }
-    testGpu().messages.clear();
 }
 
 class FailOnMessages : public testing::EmptyTestEventListener {
@@ -97,6 +97,10 @@ Device& testDevice() {
         keepLibrariesLoaded();
     }
     return *gpu.device;
+}
+
+std::vector<std::string> takeMessages() {
+    return std::exchange(testGpu().messages, {});
 }
 
 }  // namespace licht::gpu
