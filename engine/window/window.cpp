@@ -7,6 +7,7 @@
 #include <GLFW/glfw3.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <utility>
 
 #include "licht/core/error.h"
@@ -17,6 +18,20 @@ namespace {
 static_assert(kKeySpace == GLFW_KEY_SPACE && kKeyEscape == GLFW_KEY_ESCAPE && kKeyEnter == GLFW_KEY_ENTER &&
               kKeyRight == GLFW_KEY_RIGHT && kKeyLeft == GLFW_KEY_LEFT && kKeyDown == GLFW_KEY_DOWN &&
               kKeyUp == GLFW_KEY_UP);
+
+// GLFW_PLATFORM and GLFW_PLATFORM_X11 of GLFW 3.4; older ones know one platform and no such hint.
+constexpr int kPlatformHint = 0x00050003;
+constexpr int kPlatformX11 = 0x00060004;
+
+bool isAbsolute(const char* path) {
+    return path != nullptr && *path == '/';
+}
+
+/// False where libwayland would not look for a display but say so on stderr, even before X11 is asked.
+bool canAskWayland() {
+    return std::getenv("WAYLAND_SOCKET") != nullptr || isAbsolute(std::getenv("WAYLAND_DISPLAY")) ||
+           isAbsolute(std::getenv("XDG_RUNTIME_DIR"));
+}
 
 /// GLFW has one state per process, so it lives from its first use to the end of the program.
 class Glfw {
@@ -30,13 +45,18 @@ public:
     [[nodiscard]] bool running() const { return running_; }
 
 private:
-    Glfw() : running_(glfwInit() == GLFW_TRUE) {}
+    Glfw() {
+        if (!canAskWayland()) {
+            glfwInitHint(kPlatformHint, kPlatformX11);
+        }
+        running_ = glfwInit() == GLFW_TRUE;
+    }
     ~Glfw() {
         if (running_) {
             glfwTerminate();
         }
     }
-    bool running_;
+    bool running_ = false;
 };
 
 std::string reason() {

@@ -143,10 +143,14 @@ TEST(BadInput, LineBreaksInAFileNameStayInOneLine) {
 
 TEST(BadInput, NoDisplayForTheViewer) {
     const ScratchFolder folder;
-    const Outcome outcome = runLicht(folder, {"view", "empty"}, {{"DISPLAY", ""}, {"WAYLAND_DISPLAY", ""}});
-    EXPECT_EQ(outcome.exit_code, 2);
-    ASSERT_EQ(outcome.errorLines().size(), 1U) << outcome.err;
-    EXPECT_NE(outcome.err.find("licht render"), std::string::npos) << outcome.err;
+    for (const char* nowhere : {"", ":4711"}) {
+        const Outcome outcome =
+            runLicht(folder, {"view", "empty"},
+                     {{"DISPLAY", nowhere}, {"WAYLAND_DISPLAY", ""}, {"XDG_RUNTIME_DIR", ""}});
+        EXPECT_EQ(outcome.exit_code, 2);
+        ASSERT_EQ(outcome.errorLines().size(), 1U) << outcome.err;
+        EXPECT_NE(outcome.err.find("licht render"), std::string::npos) << outcome.err;
+    }
 }
 
 TEST(BadInput, NoVulkanDriverIsADeviceFailure) {
