@@ -40,6 +40,10 @@ std::vector<std::string> knownFaults(const DriverFacts& driver) {
         faults.push_back(fmt::format(
             "with {} lanes this driver fetches wrong texels or crashes; unset LP_NATIVE_VECTOR_WIDTH",
             driver.lanes));
+    // Its code generator takes time and memory by more than the length of a program: minutes and gigabytes
+    // for the path tracer in one kernel.
+    if (driver.id == VK_DRIVER_ID_GOOGLE_SWIFTSHADER)
+        faults.emplace_back("SwiftShader does not come to an end with programs as long as the path tracer");
     return faults;
 }
 

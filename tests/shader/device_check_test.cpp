@@ -105,6 +105,9 @@ TEST(DriverFaults, RefuseWhatWouldCrashBeforeItCouldAnswer) {
     DriverFacts other = wide;
     other.id = VK_DRIVER_ID_MESA_RADV;
     EXPECT_TRUE(knownFaults(other).empty());
+    other.id = VK_DRIVER_ID_GOOGLE_SWIFTSHADER;
+    ASSERT_EQ(knownFaults(other).size(), 1U);
+    EXPECT_NE(knownFaults(other)[0].find("SwiftShader"), std::string::npos) << knownFaults(other)[0];
     EXPECT_TRUE(knownFaults(driverFacts(testDevice().physicalDevice())).empty());
 }
 
