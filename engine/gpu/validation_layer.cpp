@@ -14,8 +14,7 @@ constexpr std::int32_t kBool32 = 0;
 
 }  // namespace
 
-// Layers since 1.3.275 leave out what shaders access unless they are asked to look; older ones have no
-// settings and always look.
+// Layers that have settings leave out what shaders access unless told to look; older ones always look.
 ValidationRequest::ValidationRequest(const void* next)
     : shader_accesses_{kValidationLayer, "syncval_shader_accesses_heuristic", kBool32, 1, &on_},
       settings_{kSettingsStructure, next, 1, &shader_accesses_},

@@ -22,7 +22,7 @@ public:
     [[nodiscard]] const void* chain() const;
 
 private:
-    // VkLayerSettingEXT and VkLayerSettingsCreateInfoEXT, which the headers know since 1.3.272.
+    // VkLayerSettingEXT and VkLayerSettingsCreateInfoEXT, which older headers do not know.
     struct Setting {
         const char* layer;
         const char* name;
