@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "licht/core/json_text.h"
 #include "licht/scene/effects.h"
 #include "licht/scene/instancing.h"
 
@@ -125,8 +126,7 @@ Json describe(const Scene& scene) {
 }  // namespace
 
 std::string describeSceneJson(const Scene& scene) {
-    // Names come from files and need not be UTF-8.
-    return describe(scene).dump(2, ' ', false, Json::error_handler_t::replace);
+    return jsonText(describe(scene));
 }
 
 std::string describeSceneText(const Scene& scene) {

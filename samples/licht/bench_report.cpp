@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "licht/core/json_text.h"
 #include "licht/shared/ray_records.h"
 
 namespace licht {
@@ -81,7 +82,7 @@ std::string benchJson(const BenchReport& r) {
               {"glossy_roughness", kRecordedRoughness},
               {"embree", r.embree_version.empty() ? Json(nullptr) : Json(r.embree_version)}};
     for (const BenchKind& kind : r.kinds) json["rays"].push_back(kindJson(kind));
-    return json.dump(2) + "\n";
+    return jsonText(json);
 }
 
 std::string benchText(const BenchReport& r) {

@@ -10,6 +10,7 @@
 
 #include "licht/core/error.h"
 #include "licht/core/file.h"
+#include "licht/core/json_text.h"
 #include "licht/image/exr.h"
 #include "licht/measure/metrics.h"
 #include "samples/licht/commands.h"
@@ -147,7 +148,7 @@ int compare(const CompareOptions& options) {
         json["pictures"].push_back(comparisonJson(picture, comparison));
     }
     if (options.json) {
-        const std::string written = json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+        const std::string written = jsonText(json);
         writeFile(*options.json, std::as_bytes(std::span(written)));
     }
     printOut(text);

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "licht/core/error.h"
+#include "licht/core/json_text.h"
 #include "licht/gpu/device.h"
 #include "samples/licht/commands.h"
 #include "samples/licht/outputs.h"
@@ -22,7 +23,7 @@ std::string devicesJson(const std::vector<gpu::DeviceReport>& reports) {
                         {"api_version", report.api_version},
                         {"chosen", report.chosen},
                         {"refusals", report.refusals}});
-    return list.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+    return jsonText(list);
 }
 
 std::string devicesText(const std::vector<gpu::DeviceReport>& reports) {

@@ -7,8 +7,7 @@ namespace licht {
 
 int info(const InfoOptions& options) {
     const Scene scene = loadNamedScene(options.source).scene;
-    const std::string text = options.json ? describeSceneJson(scene) : describeSceneText(scene);
-    printOut(text.ends_with('\n') ? text : text + "\n");
+    printOut(options.json ? describeSceneJson(scene) : describeSceneText(scene));
     return 0;
 }
 

@@ -7,6 +7,7 @@
 #include <type_traits>
 #include <variant>
 
+#include "licht/core/json_text.h"
 #include "licht/render/statistics.h"
 #include "licht/settings/settings_table.h"
 #include "samples/licht/series_report.h"
@@ -137,9 +138,7 @@ std::string reportJson(const RenderReport& report) {
     json["notes"] = notesJson(report.notes);
     json["outputs"] = ordered_json::array();
     for (const auto& output : report.outputs) json["outputs"].push_back(output.string());
-    // File names and scene texts may be any bytes; what is not UTF-8 is replaced, so that the report is
-    // always valid JSON.
-    return json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+    return jsonText(json);
 }
 
 std::vector<std::pair<std::string, std::string>> reportAttributes(const RenderReport& report) {

@@ -88,6 +88,15 @@ TEST(Bench, AnEmptySceneHasPrimaryRaysAlone) {
     }
 }
 
+TEST(Bench, NamesThatAreNoTextAreWrittenAsText) {
+    const ScratchFolder folder;
+    folder.write("a\xff.gltf", R"({"asset": {"version": "2.0"}})");
+    const Outcome outcome =
+        runLicht(folder, {"bench", "a\xff.gltf", "--size", "8x8", "--runs", "1", "--json", "out.json"});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_EQ(Json::parse(folder.read("out.json"))["scene"], "a\xef\xbf\xbd.gltf");
+}
+
 struct Refused {
     const char* name;
     Words arguments;
