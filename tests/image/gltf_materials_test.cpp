@@ -371,5 +371,52 @@ TEST(GltfMaterial, MissingCoordinatesAreZero) {
     }
 }
 
+Film filmOfIridescence(const Json& iridescence, const std::vector<std::array<int, 4>>& textures = {}) {
+    GltfPicture gltf;
+    for (const std::array<int, 4>& code : textures) gltf.addTexture(1, 1, {code});
+    gltf.addQuad(
+        {{"pbrMetallicRoughness",
+          {{"baseColorFactor", {0.9, 0.6, 0.3, 1}}, {"metallicFactor", 1}, {"roughnessFactor", 0.5}}},
+         {"extensions", {{"KHR_materials_iridescence", iridescence}}}});
+    return pictureOf(gltf);
+}
+
+// KHR_materials_iridescence: the factor by R, the thickness between minimum and maximum by G, neither
+// decoded; without a texture the thickness is the maximum. What a texture says is what the number would say.
+TEST(GltfMaterial, IridescenceIsRedAndItsThicknessGreen) {
+    const std::array<int, 4> code{51, 102, 255, 255};
+    const Json by_texture{{"iridescenceFactor", 0.5},
+                          {"iridescenceIor", 1.8},
+                          {"iridescenceThicknessMinimum", 100},
+                          {"iridescenceThicknessMaximum", 600},
+                          {"iridescenceTexture", {{"index", 0}}},
+                          {"iridescenceThicknessTexture", {{"index", 1}}}};
+    const Json by_number{{"iridescenceFactor", 0.5 * 51.0 / 255.0},
+                         {"iridescenceIor", 1.8},
+                         {"iridescenceThicknessMinimum", 9},
+                         {"iridescenceThicknessMaximum", 100.0 + 500.0 * 102.0 / 255.0}};
+    const Film textured = filmOfIridescence(by_texture, {code, code});
+    const Film plain = filmOfIridescence(by_number);
+    const Film without = filmOfIridescence({{"iridescenceFactor", 0}});
+    glm::dvec3 expected(0.0);
+    for (int c = 0; c < 3; ++c) expected[c] = static_cast<double>(plain.mean.at(8, 8, c));
+    expectEverywhere(textured, expected, kRounding);
+    for (int c = 0; c < 3; ++c)
+        EXPECT_GT(std::abs(expected[c] / static_cast<double>(without.mean.at(8, 8, c)) - 1.0), 0.01)
+            << "a film that changes nothing would hide what its textures say";
+}
+
+TEST(GltfMaterial, TexturesOfIridescenceWithoutCoordinatesWarn) {
+    GltfPicture gltf;
+    gltf.addTexture(1, 1, {{255, 255, 255, 255}});
+    gltf.addQuad(
+        {{"extensions",
+          {{"KHR_materials_iridescence",
+            {{"iridescenceFactor", 1}, {"iridescenceThicknessTexture", {{"index", 0}, {"texCoord", 1}}}}}}}});
+    const Scene scene = gltf.scene();
+    ASSERT_EQ(scene.notes.size(), 1U);
+    EXPECT_NE(scene.notes[0].text.find("TEXCOORD_1"), std::string::npos) << scene.notes[0].text;
+}
+
 }  // namespace
 }  // namespace licht
