@@ -76,6 +76,21 @@ constexpr auto namesOf(Sequence) {
          {"random", Sequence::random}});
 }
 
+/// What a dielectric's specular layer leaves to the diffuse layer below: what it does not reflect, by
+/// directional albedos; or, by glTF's formula, 1 - F at the half vector.
+enum class Layering : std::uint32_t { albedo = kLayeringAlbedo, gltf = kLayeringGltf };
+constexpr auto namesOf(Layering) {
+    return std::to_array<NamedChoice<Layering>>({{"albedo", Layering::albedo, "gives what it gets"},
+                                                 {"gltf", Layering::gltf, "gains at grazing angles"}});
+}
+
+/// Whether light that one microfacet sends to another one is kept or lost.
+enum class Energy : std::uint32_t { multiple = kEnergyMultiple, single = kEnergySingle };
+constexpr auto namesOf(Energy) {
+    return std::to_array<NamedChoice<Energy>>(
+        {{"multiple", Energy::multiple}, {"single", Energy::single, "loses light where it is rough"}});
+}
+
 /// How linear values become those of a display.
 enum class Tonemap : std::uint32_t {
     none = kTonemapNone,

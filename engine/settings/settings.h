@@ -27,9 +27,11 @@ struct RenderSettings {
     /// cd/m^2 that one indirect contribution may add to a pixel; 0: unlimited (unbiased).
     float clamp = 0.0F;
     bool regularise = false;  ///< widen glossy lobes behind a first scattering (biased)
-    bool orders = false;      ///< keep a layer per order T^i Le
-    bool adaptive = false;    ///< samples are drawn where a mask says so
-    LayerSet layers;          ///< beside the picture; passes and memory only where they are asked for
+    Layering layering = Layering::albedo;
+    Energy energy = Energy::multiple;
+    bool orders = false;    ///< keep a layer per order T^i Le
+    bool adaptive = false;  ///< samples are drawn where a mask says so
+    LayerSet layers;        ///< beside the picture; passes and memory only where they are asked for
     /// Compile everything, called for or not (the reference for the specialised programs).
     bool all_effects = false;
     BvhQuality bvh_quality = BvhQuality::balanced;

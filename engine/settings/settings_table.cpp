@@ -146,6 +146,18 @@ std::vector<Setting> generalRows() {
                   &RenderSettings::seed, 0, kMaxCount32)};
 }
 
+std::vector<Setting> materialRows() {
+    using enum SettingGroup;
+    constexpr unsigned kUses = kForRun | kForView | kInFile;
+    return {choice({"--layering", "HOW", material, kUses,
+                    "What a dielectric's specular layer leaves to the diffuse one: by {values}",
+                    kConstantLayering},
+                   &RenderSettings::layering),
+            choice({"--energy", "HOW", material, kUses,
+                    "Light that goes from microfacet to microfacet: {values} scattering", kConstantEnergy},
+                   &RenderSettings::energy)};
+}
+
 std::vector<Setting> samplingRows() {
     using enum SettingGroup;
     constexpr unsigned kUses = kForRun | kInFile;
@@ -200,7 +212,7 @@ std::vector<Setting> expertRows() {
 
 std::vector<Setting> rowsFor(SettingUse use) {
     std::vector<Setting> rows;
-    for (std::vector<Setting>& part : std::array{generalRows(), samplingRows(), expertRows()})
+    for (std::vector<Setting>& part : std::array{generalRows(), materialRows(), samplingRows(), expertRows()})
         for (Setting& row : part)
             if ((row.uses & use) != 0) rows.push_back(std::move(row));
     return rows;
@@ -233,6 +245,8 @@ std::string_view titleOf(SettingGroup group) {
         case SettingGroup::stop:
         case SettingGroup::transport:
             return {};
+        case SettingGroup::material:
+            return "Materials (other light)";
         case SettingGroup::sampling:
             return "Sampling (same mean, other noise)";
         case SettingGroup::biased:

@@ -19,7 +19,7 @@ namespace licht {
 using SettingValue = std::variant<std::monostate, bool, std::uint64_t, float, double, std::string_view>;
 
 /// What a setting is about; those of a group stand together in help.
-enum class SettingGroup { look, stop, transport, sampling, biased, expert };
+enum class SettingGroup { look, stop, transport, material, sampling, biased, expert };
 /// Heading of a group; empty: that of options in general.
 std::string_view titleOf(SettingGroup group);
 

@@ -148,7 +148,8 @@ void addRender(CLI::App& app, RenderOptions& options) {
     addValue(app, "--report", "FILE", "Write what was done and what it cost as JSON",
              [&options](std::string_view, std::string_view text) { options.report = text; });
     app.add_flag("--quiet", options.quiet, "Say nothing but errors");
-    for (const SettingGroup group : {SettingGroup::sampling, SettingGroup::biased, SettingGroup::expert})
+    for (const SettingGroup group :
+         {SettingGroup::material, SettingGroup::sampling, SettingGroup::biased, SettingGroup::expert})
         addSettings(app, table, group, options.run);
 }
 
@@ -159,6 +160,7 @@ void addView(CLI::App& app, ViewOptions& options) {
     addSettings(app, table, SettingGroup::look, options.run);
     addDevice(app, options.device);
     addSettings(app, table, SettingGroup::transport, options.run);
+    addSettings(app, table, SettingGroup::material, options.run);
     addValue(app, "--frames", "N", "Close after N frames (default: when the window is closed)",
              [&options](std::string_view option, std::string_view text) {
                  options.frames = parseCount(option, text, 1, std::numeric_limits<std::uint64_t>::max());

@@ -135,8 +135,7 @@ Bsdf bsdfOf(MaterialRecord m, Texels texels, Frame frame, vec3 base, Clearcoat c
     float specular = m.specular * texels.of[kSlotSpecular].a;
     vec3 specular_color = m.specular_color * texels.of[kSlotSpecularColor].rgb;
     vec3 dielectric_f0 = min(m.dielectric_f0 * specular_color, vec3(1.0)) * specular;
-    Bsdf b = Bsdf(Diffuse(base * (1.0 - metallic)), plainSpecular(alphaOf(roughness), mix(dielectric_f0, base, metallic), mix(specular, 1.0, metallic),
-                                                                  largest(dielectric_f0), specular),
+    Bsdf b = Bsdf(Diffuse(base * (1.0 - metallic)), plainSpecular(alphaOf(roughness), dielectric_f0, specular, base, metallic),
                   Clearcoat(coat.factor, coat.alpha, localFromWorld(frame, coat.normal)));
     if (kIridescence && hasBlock(m, kBlockIridescence)) {
         IridescenceRecord iridescence = iridescenceOf(m);
@@ -144,9 +143,6 @@ Bsdf bsdfOf(MaterialRecord m, Texels texels, Frame frame, vec3 base, Clearcoat c
         if (hasTexture(m, kSlotIridescenceThickness))
             thickness = mix(iridescence.thickness_minimum, thickness, texels.of[kSlotIridescenceThickness].g);
         b.specular.thin_film = thinFilm(iridescence.factor * texels.of[kSlotIridescence].r, iridescence.ior, thickness);
-        b.specular.film_dielectric_f0 = dielectric_f0;
-        b.specular.film_metal_f0 = base;
-        b.specular.metallic = metallic;
     }
     return b;
 }

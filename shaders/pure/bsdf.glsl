@@ -32,13 +32,21 @@ Bsdf regularised(Bsdf b) {
     return b;
 }
 
-// Share of samples spent on the specular layer: by what it sends towards wo against the diffuse layer.
-float shareOfSpecular(Bsdf b, vec3 wo) {
-    float specular = largest(albedoSpecular(b.specular, wo.z));
+// About what share of the light all that spreads it evenly sends to a wo.
+float albedoOfSpread(Bsdf b, float cos_o) {
     float diffuse = largest(albedoDiffuse(b.diffuse));
+    if (kEnergy != kEnergyMultiple) return diffuse;
+    return diffuse + largest(albedoMultiple(b.specular, albedoGgx(cos_o, b.specular.alpha), meanAlbedoGgx(b.specular.alpha)));
+}
+
+// Share of samples spent on the specular layer: by what it sends towards wo against what is spread evenly.
+float shareOfSpecular(Bsdf b, vec3 wo) {
+    const float kLeastSpread = 0.02;  // less of it is found by samples of the specular layer, whose tails reach everywhere
+    float specular = largest(albedoSpecular(b.specular, wo.z));
+    float spread = albedoOfSpread(b, wo.z);
     if (specular <= 0.0 && !hasThinFilm(b.specular)) return 0.0;
-    if (diffuse <= 0.0) return 1.0;
-    return shareOfLobe(specular, diffuse);
+    if (spread <= kLeastSpread * specular && largest(albedoDiffuse(b.diffuse)) <= 0.0) return 1.0;
+    return shareOfLobe(specular, spread);
 }
 
 // Share of samples spent on the clearcoat.
@@ -57,16 +65,29 @@ vec2 glossTowards(Bsdf b, float cos_o) {
     float alpha = b.specular.alpha;
     float specular = largest(albedoSpecular(b.specular, cos_o));
     if (specular <= 0.0 || alpha < kLeastChosenWidth) return vec2(alpha, 0.0);
-    float diffuse = max(largest(albedoDiffuse(b.diffuse)), kLeastDiffuse * specular);
+    float diffuse = max(albedoOfSpread(b, cos_o), kLeastDiffuse * specular);
     return vec2(alpha, specular * ggxG1(vec3(sqrt(max(1.0 - cos_o * cos_o, 0.0)), 0.0, cos_o), alpha) / (4.0 * cos_o * diffuse));
+}
+
+// All that spreads light evenly: the diffuse layer, and what the specular layer's microfacets reflect more than once.
+LobeValue evaluateSpread(Bsdf b, vec3 wo, vec3 wi, vec3 h) {
+    Specular s = b.specular;
+    GgxAlbedo towards_o = albedoGgx(wo.z, s.alpha), towards_i = albedoGgx(wi.z, s.alpha), mean = meanAlbedoGgx(s.alpha);
+    LobeValue spread = evaluateDiffuse(b.diffuse, wi, passSpecular(s, dot(wo, h), towards_o, towards_i, mean));
+    if (kEnergy == kEnergyMultiple) spread.f += evaluateMultiple(s, towards_o, towards_i, mean);
+    return spread;
 }
 
 LobeValue evaluateBsdf(Bsdf b, vec3 wo, vec3 wi) {
     if (!sameSide(wo, wi)) return kNothing;
     if (!kGlossy) return evaluateDiffuse(b.diffuse, wi, 1.0);
-    LobeValue base = over(evaluateSpecular(b.specular, wo, wi), evaluateDiffuse(b.diffuse, wi, passSpecular(b.specular, wo.z, wi.z)), shareOfSpecular(b, wo));
-    if (!hasClearcoat(b.clearcoat)) return base;
-    return over(evaluateClearcoat(b.clearcoat, wo, wi), under(passClearcoat(b.clearcoat, wo, wi), base), shareOfClearcoat(b, wo));
+    vec3 h = normalize(wo + wi);
+    LobeValue specular = evaluateSpecular(b.specular, wo, wi, h), spread = evaluateSpread(b, wo, wi, h);
+    if (!hasClearcoat(b.clearcoat)) return over(specular, spread, shareOfSpecular(b, wo));
+    float albedo_o = albedoClearcoat(b.clearcoat, wo), albedo_i = albedoClearcoat(b.clearcoat, wi);
+    LobeValue base = over(under(passClearcoatToMirror(albedo_o, albedo_i), specular), under(passClearcoatToDiffuse(b.clearcoat, albedo_o, albedo_i), spread),
+                          shareOfSpecular(b, wo));
+    return over(evaluateClearcoat(b.clearcoat, wo, wi), base, shareOfClearcoat(b, wo));
 }
 
 // Of one of the lobes; may point below the surface.

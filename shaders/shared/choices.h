@@ -23,6 +23,14 @@ LICHT_CONSTANT uint kSamplerSobol = 0u;
 LICHT_CONSTANT uint kSamplerBlue = 1u;
 LICHT_CONSTANT uint kSamplerRandom = 2u;
 
+// What a dielectric's specular layer leaves to the diffuse layer: by directional albedos, so that both give what they get, or by glTF's formula.
+LICHT_CONSTANT uint kLayeringAlbedo = 0u;
+LICHT_CONSTANT uint kLayeringGltf = 1u;
+
+// How often light is followed between the microfacets of one spot.
+LICHT_CONSTANT uint kEnergyMultiple = 0u;
+LICHT_CONSTANT uint kEnergySingle = 1u;
+
 LICHT_CONSTANT uint kTonemapNone = 0u;
 LICHT_CONSTANT uint kTonemapNeutral = 1u;
 LICHT_CONSTANT uint kTonemapAgx = 2u;

@@ -214,12 +214,15 @@ TEST(SettingsTable, NamesOfKeysAndAttributes) {
 }
 
 TEST(SettingsTable, ProgramsGetTheirConstants) {
-    EXPECT_EQ(settingConstants({}), (std::map<std::uint32_t, std::uint32_t>{{kConstantDirect, kDirectMis},
-                                                                            {kConstantMisBalance, 0},
-                                                                            {kConstantSampler, kSamplerSobol},
-                                                                            {kConstantAdaptive, 0},
-                                                                            {kConstantClamp, 0},
-                                                                            {kConstantRegularise, 0}}));
+    EXPECT_EQ(settingConstants({}),
+              (std::map<std::uint32_t, std::uint32_t>{{kConstantDirect, kDirectMis},
+                                                      {kConstantMisBalance, 0},
+                                                      {kConstantSampler, kSamplerSobol},
+                                                      {kConstantAdaptive, 0},
+                                                      {kConstantClamp, 0},
+                                                      {kConstantRegularise, 0},
+                                                      {kConstantLayering, kLayeringAlbedo},
+                                                      {kConstantEnergy, kEnergyMultiple}}));
     RenderSettings settings;
     settings.direct = DirectLight::area;
     settings.mis = MisHeuristic::balance;
@@ -227,13 +230,17 @@ TEST(SettingsTable, ProgramsGetTheirConstants) {
     settings.adaptive = true;
     settings.clamp = 0.5F;
     settings.regularise = true;
+    settings.layering = Layering::gltf;
+    settings.energy = Energy::single;
     EXPECT_EQ(settingConstants(settings),
               (std::map<std::uint32_t, std::uint32_t>{{kConstantDirect, kDirectArea},
                                                       {kConstantMisBalance, 1},
                                                       {kConstantSampler, kSamplerRandom},
                                                       {kConstantAdaptive, 1},
                                                       {kConstantClamp, 1},
-                                                      {kConstantRegularise, 1}}));
+                                                      {kConstantRegularise, 1},
+                                                      {kConstantLayering, kLayeringGltf},
+                                                      {kConstantEnergy, kEnergySingle}}));
 }
 
 }  // namespace

@@ -51,6 +51,7 @@ RenderSettings settings(std::uint32_t bounces) {
     RenderSettings result;
     result.size = uvec2(24);
     result.bounces = bounces;
+    result.layering = Layering::gltf;  // takes a coat for smooth towards what lies below
     return result;
 }
 

@@ -7,10 +7,10 @@ layout(local_size_x = 64) in;
 layout(push_constant) uniform Push {
     vec3 diffuse;
     float alpha;
-    vec3 f0;
-    float f90;
-    float dielectric_f0;
+    vec3 dielectric_f0;
     float dielectric_f90;
+    vec3 metal_f0;
+    float metallic;
     uint count;
 };
 layout(std430, binding = 0) readonly buffer Questions { vec4 directions[]; };  // wo, wi
@@ -19,10 +19,10 @@ layout(std430, binding = 1) writeonly buffer Answers { vec4 answers[]; };      /
 void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i >= count) return;
-    Bsdf b = Bsdf(Diffuse(diffuse), plainSpecular(alpha, f0, f90, dielectric_f0, dielectric_f90), kNoClearcoat);
+    Bsdf b = Bsdf(Diffuse(diffuse), plainSpecular(alpha, dielectric_f0, dielectric_f90, metal_f0, metallic), kNoClearcoat);
     vec3 wo = directions[2u * i].xyz;
     vec3 wi = directions[2u * i + 1u].xyz;
     LobeValue value = evaluateBsdf(b, wo, wi);
     answers[2u * i] = vec4(value.f, value.pdf);
-    answers[2u * i + 1u] = vec4(fresnelSchlick(f0, f90, wo.z), ggxD(wo, alpha));
+    answers[2u * i + 1u] = vec4(fresnelSchlick(b.specular.f0, b.specular.f90, wo.z), ggxD(wo, alpha));
 }

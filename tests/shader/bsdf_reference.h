@@ -1,13 +1,17 @@
 #pragma once
-// The scattering function once more, in double precision, by the textbook formulas with angles: the naive
-// reference of pure/bsdf.glsl. And what the tests of it share.
+// The scattering function once more, in double precision, by the textbook formulas with angles and as glTF
+// has it, one reflection a microfacet: the naive reference of pure/bsdf.glsl. And what the tests of it share.
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <map>
 #include <numbers>
 #include <string>
 #include <vector>
 
 #include "licht/core/math.h"
+#include "licht/shared/choices.h"
+#include "licht/shared/constants.h"
 #include "licht/shared/seam.h"
 
 namespace licht::test {
@@ -18,11 +22,26 @@ using dvec3 = glm::dvec3;
 struct Material {
     vec3 diffuse{0.0F};
     float alpha = 1.0F;
-    vec3 f0{0.0F};
-    float f90 = 0.0F;
-    float dielectric_f0 = 0.0F;
+    vec3 dielectric_f0{0.0F};
     float dielectric_f90 = 0.0F;
+    vec3 metal_f0{0.0F};
+    float metallic = 0.0F;
+
+    [[nodiscard]] dvec3 f0() const {
+        return glm::mix(dvec3(dielectric_f0), dvec3(metal_f0), static_cast<double>(metallic));
+    }
+    [[nodiscard]] double f90() const {
+        return glm::mix(static_cast<double>(dielectric_f90), 1.0, static_cast<double>(metallic));
+    }
+    [[nodiscard]] double strongestDielectricF0() const {
+        return static_cast<double>(std::max({dielectric_f0.x, dielectric_f0.y, dielectric_f0.z}));
+    }
 };
+
+/// What the reference below says: specialisation constants.
+inline std::map<std::uint32_t, std::uint32_t> asInTheTextbook() {
+    return {{kConstantLayering, kLayeringGltf}, {kConstantEnergy, kEnergySingle}};
+}
 
 struct NamedMaterial {
     std::string name;
@@ -31,11 +50,15 @@ struct NamedMaterial {
 
 /// A specular layer that reflects everything.
 inline Material mirror(float alpha) {
-    return {vec3(0.0F), alpha, vec3(1.0F), 1.0F, 0.0F, 0.0F};
+    return {vec3(0.0F), alpha, vec3(0.0F), 0.0F, vec3(1.0F), 1.0F};
+}
+
+inline Material metal(vec3 f0, float alpha) {
+    return {vec3(0.0F), alpha, vec3(0.04F), 1.0F, f0, 1.0F};
 }
 
 inline Material plastic(vec3 albedo, float alpha, float f0, float f90) {
-    return {albedo, alpha, vec3(f0), f90, f0, f90};
+    return {albedo, alpha, vec3(f0), f90, vec3(0.0F), 0.0F};
 }
 
 inline std::vector<NamedMaterial> materials() {
@@ -46,10 +69,10 @@ inline std::vector<NamedMaterial> materials() {
         {"rough plastic", plastic(vec3(0.8F, 0.4F, 0.2F), 1.0F, 0.04F, 1.0F)},
         {"plastic without specular", plastic(vec3(0.5F), 0.3F, 0.0F, 0.0F)},
         {"plastic with half a specular", plastic(vec3(0.5F), 0.3F, 0.02F, 0.5F)},
-        {"half a metal", {vec3(0.4F, 0.2F, 0.1F), 0.3F, vec3(0.5F, 0.3F, 0.2F), 1.0F, 0.04F, 1.0F}},
-        {"polished gold", {vec3(0.0F), 1e-3F, vec3(1.0F, 0.78F, 0.34F), 1.0F, 0.04F, 1.0F}},
-        {"satin gold", {vec3(0.0F), 0.05F, vec3(1.0F, 0.78F, 0.34F), 1.0F, 0.04F, 1.0F}},
-        {"rough gold", {vec3(0.0F), 0.6F, vec3(1.0F, 0.78F, 0.34F), 1.0F, 0.04F, 1.0F}},
+        {"half a metal", {vec3(0.4F, 0.2F, 0.1F), 0.3F, vec3(0.04F), 1.0F, vec3(0.8F, 0.4F, 0.2F), 0.5F}},
+        {"polished gold", metal(vec3(1.0F, 0.78F, 0.34F), 1e-3F)},
+        {"satin gold", metal(vec3(1.0F, 0.78F, 0.34F), 0.05F)},
+        {"rough gold", metal(vec3(1.0F, 0.78F, 0.34F), 0.6F)},
         {"white", mirror(0.25F)},
         {"roughest white", mirror(1.0F)},
     };
@@ -83,31 +106,25 @@ inline double fresnel(double f0, double f90, double cosine) {
     return f0 + (f90 - f0) * std::pow(1.0 - cosine, 5.0);
 }
 
-/// Kelemen and Szirmay-Kalos 2001: the specular layer's transmittance towards both directions over its mean
-/// by cosine, which 20 / 21 of f0 and 1 / 21 of f90 make.
-inline double passed(const Material& m, double cos_o, double cos_i) {
-    const auto f0 = static_cast<double>(m.dielectric_f0);
-    const auto f90 = static_cast<double>(m.dielectric_f90);
-    return (1.0 - fresnel(f0, f90, cos_o)) * (1.0 - fresnel(f0, f90, cos_i)) /
-           (1.0 - (20.0 * f0 + f90) / 21.0);
+/// glTF 2.0, Appendix B: what the half vector's microfacets do not reflect reaches the diffuse layer.
+inline double passed(const Material& m, double cos_h) {
+    return 1.0 - fresnel(m.strongestDielectricF0(), static_cast<double>(m.dielectric_f90), cos_h);
 }
 
 inline double f(const Material& m, int channel, const dvec3& wo, const dvec3& wi) {
     const dvec3 h = glm::normalize(wo + wi);
     const auto alpha = static_cast<double>(m.alpha);
     const double cosine = glm::dot(wo, h);
-    const double specular = fresnel(static_cast<double>(m.f0[channel]), static_cast<double>(m.f90), cosine) *
-                            distribution(h, alpha) / (1.0 + lambda(wo, alpha) + lambda(wi, alpha)) /
-                            (4.0 * wo.z * wi.z);
-    return static_cast<double>(m.diffuse[channel]) * passed(m, wo.z, wi.z) / std::numbers::pi + specular;
+    const double specular = fresnel(m.f0()[channel], m.f90(), cosine) * distribution(h, alpha) /
+                            (1.0 + lambda(wo, alpha) + lambda(wi, alpha)) / (4.0 * wo.z * wi.z);
+    return static_cast<double>(m.diffuse[channel]) * passed(m, cosine) / std::numbers::pi + specular;
 }
 
 inline double specularShare(const Material& m, const dvec3& wo) {
     double specular = 0.0;
     double below = 0.0;
     for (int c = 0; c < 3; ++c) {
-        specular =
-            std::max(specular, fresnel(static_cast<double>(m.f0[c]), static_cast<double>(m.f90), wo.z));
+        specular = std::max(specular, fresnel(m.f0()[c], m.f90(), wo.z));
         below = std::max(below, static_cast<double>(m.diffuse[c]));
     }
     if (specular == 0.0) return 0.0;

@@ -8,10 +8,10 @@ layout(local_size_x = 64) in;
 layout(push_constant) uniform Push {
     vec3 diffuse;
     float alpha;
-    vec3 f0;
-    float f90;
-    float dielectric_f0;
+    vec3 dielectric_f0;
     float dielectric_f90;
+    vec3 metal_f0;
+    float metallic;
     uint count;
     uint seed;
     vec4 wo;
@@ -22,7 +22,7 @@ layout(std430, binding = 1) writeonly buffer Answers { vec4 answers[]; };  // wi
 void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i >= count) return;
-    Bsdf b = Bsdf(Diffuse(diffuse), plainSpecular(alpha, f0, f90, dielectric_f0, dielectric_f90), kNoClearcoat);
+    Bsdf b = Bsdf(Diffuse(diffuse), plainSpecular(alpha, dielectric_f0, dielectric_f90, metal_f0, metallic), kNoClearcoat);
     SampleAddress a = SampleAddress(uvec2(i & 1023u, i >> 10u), sample_index, seed);
     vec4 u = random4(a, 0u);
     BsdfSample s = sampleBsdf(b, wo.xyz, u.x, u.yz);

@@ -42,13 +42,14 @@ protected:
             Material material;
             std::uint32_t count;
             std::uint32_t seed;
+            std::uint32_t pad[2];
             vec4 wo;
-        } push{material, kCount, 2, vec4(wo, 0.0F)};
+        } push{material, kCount, 2, {0, 0}, vec4(wo, 0.0F)};
         return kernel_.run<Sample>(kCount, kCount, push, std::vector<std::uint32_t>{0});
     }
 
 private:
-    test::Kernel kernel_{"bsdf samples", bsdf_sampling_comp};
+    test::Kernel kernel_{"bsdf samples", bsdf_sampling_comp, test::asInTheTextbook()};
 };
 
 double turn(const dvec3& w) {

@@ -13,11 +13,12 @@ layout(push_constant) uniform Push {
     float f90;
     float factor;
     float coat_alpha;
-    float tilt;  // of the coat's normal, tangent of the angle
+    float tilt;      // of the coat's normal, tangent of the angle
+    float metallic;  // f0 is that of the metal, too
 };
 
 Bsdf material() {
-    return Bsdf(Diffuse(diffuse), plainSpecular(alpha, f0, f90, largest(f0), f90), Clearcoat(factor, coat_alpha, normalize(vec3(tilt, 0.5 * tilt, 1.0))));
+    return Bsdf(Diffuse(diffuse), plainSpecular(alpha, f0, f90, f0, metallic), Clearcoat(factor, coat_alpha, normalize(vec3(tilt, 0.5 * tilt, 1.0))));
 }
 
 LobeValue evaluateLobe(vec3 wo, vec3 wi) { return evaluateBsdf(material(), wo, wi); }

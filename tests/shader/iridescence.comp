@@ -29,17 +29,20 @@ struct Answer {
 };
 layout(std430, binding = 1) writeonly buffer Answers { Answer answers[]; };
 
+// Both ways at that angle.
+float passed(Specular s, float cosine) {
+    GgxAlbedo a = albedoGgx(cosine, s.alpha);
+    return passSpecular(s, cosine, a, a, meanAlbedoGgx(s.alpha));
+}
+
 void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i >= count) return;
     Question q = questions[i];
-    Specular layer = plainSpecular(q.alpha, mix(q.dielectric_f0, q.metal_f0, q.metallic), 1.0, largest(q.dielectric_f0), 1.0);
-    vec4 plain = vec4(reflectanceSpecular(layer, q.cosine), passSpecular(layer, q.cosine, q.cosine));
+    Specular layer = plainSpecular(q.alpha, q.dielectric_f0, 1.0, q.metal_f0, q.metallic);
+    vec4 plain = vec4(reflectanceSpecular(layer, q.cosine), passed(layer, q.cosine));
     layer.thin_film = thinFilm(q.strength, q.ior, q.thickness);
-    layer.film_dielectric_f0 = q.dielectric_f0;
-    layer.film_metal_f0 = q.metal_f0;
-    layer.metallic = q.metallic;
-    vec4 specular = vec4(reflectanceSpecular(layer, q.cosine), passSpecular(layer, q.cosine, q.cosine));
+    vec4 specular = vec4(reflectanceSpecular(layer, q.cosine), passed(layer, q.cosine));
     Bsdf b = Bsdf(Diffuse(q.diffuse * (1.0 - q.metallic)), layer, kNoClearcoat);
     vec4 u = random4(SampleAddress(uvec2(i & 1023u, i >> 10u), 0u, q.seed), 0u);
     vec3 wo = vec3(sqrt(1.0 - q.cosine * q.cosine), 0.0, q.cosine);

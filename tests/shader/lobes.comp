@@ -13,12 +13,12 @@ layout(push_constant) uniform Push {
     float f90;
     float thickness;  // of a thin film; 0: none
     uint lobe;        // 0 diffuse, 1 specular, 2 both
+    float metallic;   // f0 is that of the metal, too
 };
 
 Bsdf material() {
-    Bsdf b = Bsdf(Diffuse(diffuse), plainSpecular(alpha, f0, f90, largest(f0), f90), kNoClearcoat);
+    Bsdf b = Bsdf(Diffuse(diffuse), plainSpecular(alpha, f0, f90, f0, metallic), kNoClearcoat);
     b.specular.thin_film = thinFilm(0.8, 1.4, thickness);
-    b.specular.film_dielectric_f0 = f0;
     return b;
 }
 
@@ -30,7 +30,7 @@ BsdfSample sampleOf(vec3 wo, vec3 wi, LobeValue value) {
 LobeValue evaluateLobe(vec3 wo, vec3 wi) {
     if (!sameSide(wo, wi)) return kNothing;
     if (lobe == 0u) return evaluateDiffuse(material().diffuse, wi, 1.0);
-    if (lobe == 1u) return evaluateSpecular(material().specular, wo, wi);
+    if (lobe == 1u) return evaluateSpecular(material().specular, wo, wi, normalize(wo + wi));
     return evaluateBsdf(material(), wo, wi);
 }
 

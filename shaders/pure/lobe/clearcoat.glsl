@@ -5,6 +5,8 @@
 #include "pure/frame.glsl"
 #include "pure/lobe/fresnel.glsl"
 #include "pure/lobe/ggx.glsl"
+#include "pure/lobe/ggx_albedo.glsl"
+#include "pure/lobe/layering.glsl"
 #include "pure/lobe/lobe.glsl"
 #include "shared/effects.h"
 
@@ -22,7 +24,7 @@ const Clearcoat kNoClearcoat = Clearcoat(0.0, 1.0, vec3(0.0, 0.0, 1.0));
 
 bool hasClearcoat(Clearcoat c) { return kClearcoat && c.factor > 0.0; }
 
-// What it reflects of light from or towards a direction, by that direction's cosine with its normal. Below its horizon: all.
+// By a cosine with its half vector or, where it is smooth, with its normal. Below its horizon: all.
 float reflectanceClearcoat(float factor, float cosine) { return factor * fresnelSchlick(vec3(kClearcoatF0), 1.0, cosine).x; }
 
 // wo and wi in the frame of what lies below, whose cosine the caller multiplies by: f has the coat's own over that.
@@ -42,11 +44,23 @@ vec3 sampleClearcoat(Clearcoat c, vec3 wo, vec2 u) {
     return i.z > 0.0 ? worldFromLocal(frame, i) : vec3(0.0, 0.0, -1.0);
 }
 
-float albedoClearcoat(Clearcoat c, vec3 wo) { return reflectanceClearcoat(c.factor, dot(wo, c.normal)); }
+// What it reflects of light from or towards a direction; glTF takes it for smooth there.
+float albedoClearcoat(Clearcoat c, vec3 wo) {
+    float cosine = dot(wo, c.normal);
+    return kLayering == kLayeringGltf ? reflectanceClearcoat(c.factor, cosine) : c.factor * albedoOf(albedoGgx(cosine, c.alpha), kClearcoatF0, 1.0);
+}
 
-// Of both directions the lesser share: reciprocal, and what lies below sends at most its own times (1 - F(wo)), as the extension's document has it for wo
-// alone, so that both together never give more than they get, whatever lies below. (Kelemen's and Szirmay-Kalos' quotient holds over Lambertian
-// layers; over a mirror it gains.)
-float passClearcoat(Clearcoat c, vec3 wo, vec3 wi) { return 1.0 - max(albedoClearcoat(c, wo), albedoClearcoat(c, wi)); }
+// To layers that mirror. Of both directions the lesser share: reciprocal, and what lies below sends at most its own times (1 - F(wo)), as the extension's
+// document has it for wo alone, so that both together never give more than they get, whatever lies below. (The quotient would gain over a mirror.)
+float passClearcoatToMirror(float albedo_o, float albedo_i) { return 1.0 - max(albedo_o, albedo_i); }
+
+// To layers that spread light evenly, as the specular layer does to the diffuse one.
+float passClearcoatToDiffuse(Clearcoat c, float albedo_o, float albedo_i) {
+    if (kLayering == kLayeringGltf) return passClearcoatToMirror(albedo_o, albedo_i);
+    // What comes through a dielectric layer below comes steeply, where the coat passes more than on average: the mean of (1 - F)^2 over the square of that
+    // of 1 - F for smooth ones, (1 - 2/21 + 1/66) / (1 - 1/21)^2. Over a bare Lambertian layer as much too little is passed.
+    const float kAlike = 1.0142;
+    return passedBothWays(1.0 - albedo_o, 1.0 - albedo_i, kAlike * (1.0 - c.factor * albedoOf(meanAlbedoGgx(c.alpha), kClearcoatF0, 1.0)));
+}
 
 #endif

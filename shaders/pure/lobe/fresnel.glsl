@@ -10,6 +10,6 @@ vec3 fresnelSchlick(vec3 f0, float f90, float cos_theta) {
 }
 
 // Its mean over the hemisphere, by cosine: the integral of 2 c (1 - c)^5 is 1/21.
-float meanFresnelSchlick(float f0, float f90) { return mix(f0, f90, 1.0 / 21.0); }
+vec3 meanFresnelSchlick(vec3 f0, float f90) { return mix(f0, vec3(f90), 1.0 / 21.0); }
 
 #endif

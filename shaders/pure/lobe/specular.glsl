@@ -5,45 +5,55 @@
 
 #include "pure/lobe/fresnel.glsl"
 #include "pure/lobe/ggx.glsl"
+#include "pure/lobe/ggx_albedo.glsl"
+#include "pure/lobe/layering.glsl"
 #include "pure/lobe/lobe.glsl"
 #include "pure/lobe/thin_film.glsl"
+#include "shared/choices.h"
+#include "shared/constants.h"
 #include "shared/effects.h"
 
 layout(constant_id = kEffectIridescence) const bool kIridescence = true;
+layout(constant_id = kConstantEnergy) const uint kEnergy = kEnergyMultiple;
 
 struct Specular {
-    float alpha;              // GGX width, at least kMinAlpha
-    vec3 f0;                  // reflectance at normal incidence, dielectric and metal mixed
-    float f90;                // and at grazing incidence
-    float dielectric_f0;      // of the dielectric share alone (largest channel): what the layer below does not receive
+    float alpha;          // GGX width, at least kMinAlpha
+    vec3 f0;              // reflectance at normal incidence, dielectric and metal mixed
+    float f90;            // and at grazing incidence
+    vec3 dielectric_f0;   // of the dielectric share alone
     float dielectric_f90;
+    vec3 metal_f0;
+    float metallic;       // share of the metal
     ThinFilm thin_film;
-    vec3 film_dielectric_f0;  // what lies under the thin film: the dielectric share
-    vec3 film_metal_f0;       // and the metal
-    float metallic;           // share of the metal
 };
 
+const ThinFilm kNoThinFilm = ThinFilm(0.0, 1.0, 0.0);
+
 // Without a thin film.
-Specular plainSpecular(float alpha, vec3 f0, float f90, float dielectric_f0, float dielectric_f90) {
-    return Specular(alpha, f0, f90, dielectric_f0, dielectric_f90, ThinFilm(0.0, 1.0, 0.0), vec3(0.0), vec3(0.0), 0.0);
+Specular plainSpecular(float alpha, vec3 dielectric_f0, float dielectric_f90, vec3 metal_f0, float metallic) {
+    return Specular(alpha, mix(dielectric_f0, metal_f0, metallic), mix(dielectric_f90, 1.0, metallic), dielectric_f0, dielectric_f90, metal_f0, metallic,
+                    kNoThinFilm);
 }
 
-const Specular kNoSpecular = Specular(1.0, vec3(0.0), 0.0, 0.0, 0.0, ThinFilm(0.0, 1.0, 0.0), vec3(0.0), vec3(0.0), 0.0);
+const Specular kNoSpecular = Specular(1.0, vec3(0.0), 0.0, vec3(0.0), 0.0, vec3(0.0), 0.0, kNoThinFilm);
 
 bool hasThinFilm(Specular s) { return kIridescence && s.thin_film.strength > 0.0; }
+
+// Of the film over what is dielectric.
+vec3 reflectanceFilm(Specular s, float cos_h) { return fresnelThinFilm(s.thin_film, thinFilmResponse(s.thin_film, cos_h), s.dielectric_f0); }
 
 // cos_h: between wo or wi and the half vector.
 vec3 reflectanceSpecular(Specular s, float cos_h) {
     vec3 plain = fresnelSchlick(s.f0, s.f90, cos_h);
     if (!hasThinFilm(s)) return plain;
     ThinFilmResponse response = thinFilmResponse(s.thin_film, cos_h);
-    vec3 dielectric = fresnelThinFilm(s.thin_film, response, s.film_dielectric_f0);
-    vec3 metal = fresnelThinFilm(s.thin_film, response, s.film_metal_f0);
+    vec3 dielectric = fresnelThinFilm(s.thin_film, response, s.dielectric_f0);
+    vec3 metal = fresnelThinFilm(s.thin_film, response, s.metal_f0);
     return mix(plain, mix(dielectric, metal, s.metallic), s.thin_film.strength);
 }
 
-LobeValue evaluateSpecular(Specular s, vec3 wo, vec3 wi) {
-    vec3 h = normalize(wo + wi);
+// Of light that microfacets reflect once.
+LobeValue evaluateSpecular(Specular s, vec3 wo, vec3 wi, vec3 h) {
     GgxValue ggx = evaluateGgx(s.alpha, wo, wi, h);
     return LobeValue(reflectanceSpecular(s, dot(wo, h)) * ggx.f, ggx.pdf);
 }
@@ -53,25 +63,65 @@ vec3 sampleSpecular(Specular s, vec3 wo, vec2 u) { return sampleGgx(s.alpha, wo,
 // Of a thin film what lies under it counts: the film's own reflectance towards wo says little about other half vectors.
 vec3 albedoSpecular(Specular s, float cos_o) { return fresnelSchlick(s.f0, s.f90, cos_o); }
 
-// What a dielectric interface passes, for a pair of directions: on the way in and on the way out, and the division makes the albedo of a Lambertian
-// layer below towards wo exactly its own times (1 - F(wo)), so that both together never give more than they get. glTF's own formula, 1 - F(half
-// vector), gives up to 1.4 times what it gets near grazing. Reciprocal. Kelemen and Szirmay-Kalos 2001, A Microfacet Based Coupled Specular-Matte BRDF
-// Model with Importance Sampling.
-float passDielectric(float f0, float f90, float cos_o, float cos_i) {
-    float out_passed = 1.0 - fresnelSchlick(vec3(f0), f90, cos_o).x;
-    float in_passed = 1.0 - fresnelSchlick(vec3(f0), f90, cos_i).x;
-    float mean_passed = 1.0 - meanFresnelSchlick(f0, f90);
-    return mean_passed > 0.0 ? out_passed * in_passed / mean_passed : 0.0;
+// Share that leaves in the end, of light that one microfacet sent to another one: it is reflected twice at least, and what does not leave then, a mean share,
+// is reflected again. Kulla and Conty 2017, Revisiting Physically Based Shading at Imageworks.
+vec3 seriesOfReflections(vec3 f0, float f90, float mean_white) {
+    vec3 f = meanFresnelSchlick(f0, f90);
+    return f * f * (mean_white / (1.0 - f * (1.0 - mean_white)));
 }
 
-// A thin film passes what its strongest channel leaves, of both directions the lesser share: reciprocal, and the albedo of what lies below towards wo is
-// at most its own times (1 - R(wo)), as without a film. No mean over the hemisphere is known for it in closed form.
-float passSpecular(Specular s, float cos_o, float cos_i) {
-    float passed = passDielectric(s.dielectric_f0, s.dielectric_f90, cos_o, cos_i);
-    if (!hasThinFilm(s)) return passed;
-    vec3 towards_o = fresnelThinFilm(s.thin_film, thinFilmResponse(s.thin_film, cos_o), s.film_dielectric_f0);
-    vec3 towards_i = fresnelThinFilm(s.thin_film, thinFilmResponse(s.thin_film, cos_i), s.film_dielectric_f0);
-    return mix(passed, 1.0 - largest(max(towards_o, towards_i)), s.thin_film.strength);
+// The same of dielectric and metal, each by its share. A thin film's colour has no part in it.
+vec3 seriesOfSpecular(Specular s, GgxAlbedo mean) {
+    if (kEnergy != kEnergyMultiple) return vec3(0.0);
+    return mix(seriesOfReflections(s.dielectric_f0, s.dielectric_f90, mean.white), seriesOfReflections(s.metal_f0, 1.0, mean.white), s.metallic);
+}
+
+// Of light that microfacets reflect more than once: what one reflection loses, evenly spread over what one reflection loses the other way. Reciprocal.
+vec3 evaluateMultiple(Specular s, GgxAlbedo towards_o, GgxAlbedo towards_i, GgxAlbedo mean) {
+    return seriesOfSpecular(s, mean) * ((1.0 - towards_o.white) * (1.0 - towards_i.white) / (1.0 - mean.white) * kInvPi);
+}
+
+vec3 albedoMultiple(Specular s, GgxAlbedo towards_o, GgxAlbedo mean) { return seriesOfSpecular(s, mean) * (1.0 - towards_o.white); }
+
+// What the dielectric leaves to what lies below of the light of a direction, or of all directions. once: what it reflects once.
+float leftBelow(Specular s, float once, GgxAlbedo a, GgxAlbedo mean) {
+    float left = 1.0 - once;
+    if (kEnergy == kEnergyMultiple) left -= (1.0 - a.white) * seriesOfReflections(vec3(largest(s.dielectric_f0)), s.dielectric_f90, mean.white).x;
+    return max(left, 0.0);
+}
+
+float leftByDielectric(Specular s, GgxAlbedo a, GgxAlbedo mean) {
+    return leftBelow(s, albedoOf(a, largest(s.dielectric_f0), s.dielectric_f90), a, mean);
+}
+
+// A film leaves what its strongest channel does, as KHR_materials_iridescence has it, so that no other colour comes from below.
+float leftByFilm(Specular s, GgxAlbedo a, GgxAlbedo mean) { return leftBelow(s, a.white * largest(reflectanceFilm(s, a.half_cosine)), a, mean); }
+
+// Its mean, by Gauss' three points of the squared cosine, which directions by cosine have evenly.
+float meanLeftByFilm(Specular s, GgxAlbedo mean) {
+    const vec3 kCosines = sqrt(0.5 + vec3(-0.5, 0.0, 0.5) * 0.7745966692);  // sqrt(3/5)
+    const vec3 kWeights = vec3(5.0, 8.0, 5.0) / 18.0;
+    return dot(kWeights, vec3(leftByFilm(s, albedoGgx(kCosines.x, s.alpha), mean), leftByFilm(s, albedoGgx(kCosines.y, s.alpha), mean),
+                              leftByFilm(s, albedoGgx(kCosines.z, s.alpha), mean)));
+}
+
+// glTF 2.0, Appendix B: what is not reflected at the half vector, which is nearly all of it even near grazing. Both layers give up to 1.9 times what they get.
+float passByHalfVector(Specular s, float cos_h) {
+    float passed = 1.0 - fresnelSchlick(vec3(largest(s.dielectric_f0)), s.dielectric_f90, cos_h).x;
+    return hasThinFilm(s) ? mix(passed, 1.0 - largest(reflectanceFilm(s, cos_h)), s.thin_film.strength) : passed;
+}
+
+// What reaches the diffuse layer and gets out again.
+float passSpecular(Specular s, float cos_h, GgxAlbedo towards_o, GgxAlbedo towards_i, GgxAlbedo mean) {
+    if (kLayering == kLayeringGltf) return passByHalfVector(s, cos_h);
+    float left_o = leftByDielectric(s, towards_o, mean), left_i = leftByDielectric(s, towards_i, mean), mean_left = leftByDielectric(s, mean, mean);
+    if (hasThinFilm(s)) {
+        float strength = s.thin_film.strength;
+        left_o = mix(left_o, leftByFilm(s, towards_o, mean), strength);
+        left_i = mix(left_i, leftByFilm(s, towards_i, mean), strength);
+        mean_left = mix(mean_left, meanLeftByFilm(s, mean), strength);
+    }
+    return passedBothWays(left_o, left_i, mean_left);
 }
 
 #endif
