@@ -85,8 +85,9 @@ LobeValue evaluateBsdf(Bsdf b, vec3 wo, vec3 wi) {
     LobeValue specular = evaluateSpecular(b.specular, wo, wi, h), spread = evaluateSpread(b, wo, wi, h);
     if (!hasClearcoat(b.clearcoat)) return over(specular, spread, shareOfSpecular(b, wo));
     float albedo_o = albedoClearcoat(b.clearcoat, wo), albedo_i = albedoClearcoat(b.clearcoat, wi);
-    LobeValue base = over(under(passClearcoatToMirror(albedo_o, albedo_i), specular), under(passClearcoatToDiffuse(b.clearcoat, albedo_o, albedo_i), spread),
-                          shareOfSpecular(b, wo));
+    float grazing = meanAlbedoGgx(b.specular.alpha).grazing * b.specular.dielectric_f90;
+    LobeValue base = over(under(passClearcoatToMirror(albedo_o, albedo_i), specular),
+                          under(passClearcoatToDiffuse(b.clearcoat, albedo_o, albedo_i, grazing), spread), shareOfSpecular(b, wo));
     return over(evaluateClearcoat(b.clearcoat, wo, wi), base, shareOfClearcoat(b, wo));
 }
 

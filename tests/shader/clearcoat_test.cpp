@@ -55,6 +55,24 @@ TEST(Clearcoat, IsSampledByItsDensityAndGainsNothing) {
     }
 }
 
+// What is lost: a hundredth by the fits of each of both layers, see energy_test.cpp, and by the specular
+// layer below, which counts as a mirror: what it sends elsewhere, where the coat passes less, another one.
+TEST(Clearcoat, OverWhiteShowsOne) {
+    test::Kernel kernel("clearcoat", clearcoat_comp);
+    for (const float alpha : {0.01F, 0.09F, 0.3F, 1.0F})
+        for (const float coat_alpha : {0.01F, 0.09F, 0.3F, 1.0F})
+            for (const double cosine : {1.0, 0.7, 0.25, 0.1}) {
+                const Parameters plastic{.diffuse = vec3(1.0F),
+                                         .alpha = alpha,
+                                         .f0 = vec3(0.04F),
+                                         .f90 = 1.0F,
+                                         .coat_alpha = coat_alpha};
+                const std::string name = std::to_string(alpha) + " under " + std::to_string(coat_alpha);
+                Lobe(kernel, name, plastic).expectLittleLoss(test::towards(cosine), 3.0 * 0.01);
+                Lobe(kernel, name, plastic).expectNoGain(test::towards(cosine), 2.0 * 0.001);
+            }
+}
+
 /// Pairs of directions, all above the surface.
 std::vector<vec4> pairs() {
     std::mt19937 random(1);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -111,11 +112,7 @@ public:
 
     /// A furnace: all light that comes is one. `allowance`: of what rounding of the lobe is known to add.
     void expectNoGain(const vec3& wo, double allowance = 0.0) const {
-        const std::vector<Answer> samples = ask(pairsOf(wo, std::vector<vec3>(kSamples, vec3(0, 0, 1))));
-        for (int c = 0; c < 3; ++c) {
-            RunningStatistics statistics;
-            for (const Answer& s : samples)
-                statistics.add(s.sampled.w < 0.0F ? 0.0 : static_cast<double>(s.weight[c]));
+        for (const RunningStatistics& statistics : furnace(wo)) {
             EXPECT_LE(statistics.mean(),
                       1.0 + allowance + 4.5 * std::sqrt(statistics.varianceOfMean()) + 0x1p-18)
                 << name_;
@@ -123,10 +120,27 @@ public:
         }
     }
 
+    /// The same furnace shows at least 1 - loss.
+    void expectLittleLoss(const vec3& wo, double loss) const {
+        for (const RunningStatistics& statistics : furnace(wo))
+            EXPECT_GE(statistics.mean(), 1.0 - loss - 4.5 * std::sqrt(statistics.varianceOfMean()))
+                << name_ << ", cosine " << wo.z;
+    }
+
 private:
     static constexpr std::uint32_t kSamples = 1U << 17U;
     static constexpr std::size_t kColumns = 32;  // phi
     static constexpr std::size_t kRows = 16;     // the cosine of wi
+
+    /// What samples carry, by channel.
+    [[nodiscard]] std::array<RunningStatistics, 3> furnace(const vec3& wo) const {
+        std::array<RunningStatistics, 3> statistics;
+        for (const Answer& s : ask(pairsOf(wo, std::vector<vec3>(kSamples, vec3(0, 0, 1)))))
+            for (int c = 0; c < 3; ++c)
+                statistics.at(static_cast<std::size_t>(c))
+                    .add(s.sampled.w < 0.0F ? 0.0 : static_cast<double>(s.weight[c]));
+        return statistics;
+    }
 
     static std::vector<vec4> pairsOf(const vec3& wo, const std::vector<vec3>& wi) {
         std::vector<vec4> pairs;

@@ -54,13 +54,15 @@ float albedoClearcoat(Clearcoat c, vec3 wo) {
 // document has it for wo alone, so that both together never give more than they get, whatever lies below. (The quotient would gain over a mirror.)
 float passClearcoatToMirror(float albedo_o, float albedo_i) { return 1.0 - max(albedo_o, albedo_i); }
 
-// To layers that spread light evenly, as the specular layer does to the diffuse one.
-float passClearcoatToDiffuse(Clearcoat c, float albedo_o, float albedo_i) {
+// To layers that spread light evenly. grazing_below: of the mean albedo of the layers below, what comes of their reflecting more at grazing angles.
+float passClearcoatToDiffuse(Clearcoat c, float albedo_o, float albedo_i, float grazing_below) {
     if (kLayering == kLayeringGltf) return passClearcoatToMirror(albedo_o, albedo_i);
-    // What comes through a dielectric layer below comes steeply, where the coat passes more than on average: the mean of (1 - F)^2 over the square of that
-    // of 1 - F for smooth ones, (1 - 2/21 + 1/66) / (1 - 1/21)^2. Over a bare Lambertian layer as much too little is passed.
-    const float kAlike = 1.0142;
-    return passedBothWays(1.0 - albedo_o, 1.0 - albedo_i, kAlike * (1.0 - c.factor * albedoOf(meanAlbedoGgx(c.alpha), kClearcoatF0, 1.0)));
+    // What comes through a layer below comes steeply, where the coat passes more than on average. For two smooth ones that is the mean of (1 - F)^2 over the
+    // square of that of 1 - F, (1 - 2/21 + 1/66) / (1 - 1/21)^2; rough ones have their part in it less by as much as their grazing angles, 1/21 for smooth.
+    const float kAlike = 0.0142;
+    GgxAlbedo mean = meanAlbedoGgx(c.alpha);
+    float alike = 1.0 + kAlike * min(21.0 * mean.grazing, 1.0) * min(21.0 * grazing_below, 1.0);
+    return passedBothWays(1.0 - albedo_o, 1.0 - albedo_i, alike * (1.0 - c.factor * albedoOf(mean, kClearcoatF0, 1.0)));
 }
 
 #endif
