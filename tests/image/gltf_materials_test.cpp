@@ -46,13 +46,11 @@ double mirrorPeak(double f0, double roughness) {
 TEST(GltfMaterial, BaseColourIsFactorTimesTextureTimesVertexColour) {
     GltfPicture gltf;
     const std::array<int, 4> code{200, 128, 20, 255};
-    std::vector<float> colors;
-    for (int i = 0; i < 4; ++i) colors.insert(colors.end(), {0.5F, 1.0F, 0.25F, 1.0F});
     const int texture = gltf.addTexture(1, 1, {code});
     gltf.addQuad(GltfPicture::matte({{"pbrMetallicRoughness",
                                       {{"baseColorFactor", {0.8, 0.5, 1.0, 1.0}},
                                        {"baseColorTexture", {{"index", texture}}}}}}),
-                 Json::object(), {{"COLOR_0", gltf.file.vec4s(colors)}});
+                 Json::object(), {{"COLOR_0", gltf.atEveryCorner({0.5F, 1.0F, 0.25F, 1.0F})}});
     const glm::dvec3 exact = decoded(code) * glm::dvec3(0.8, 0.5, 1.0) * glm::dvec3(0.5, 1.0, 0.25);
     expectEverywhere(pictureOf(gltf), exact, kRounding);
 }
@@ -172,13 +170,13 @@ TEST(GltfMaterial, NormalMapsGoByAllFourSignsAndScales) {
             GltfPicture gltf;
             const int texture = gltf.addTexture(2, 2, codes);
             Json more = Json::object();
-            std::vector<float> tangents;
             std::vector<float> uvs;
             for (const auto& [x, y] : test::kQuadCorners) {
-                tangents.insert(tangents.end(), {1, 0, 0, static_cast<float>(source.handedness)});
-                uvs.insert(uvs.end(), {0.5F - 0.5F * x, 0.5F - 0.5F * y});
+                uvs.push_back(0.5F - 0.5F * x);
+                uvs.push_back(0.5F - 0.5F * y);
             }
-            if (source.handedness != 0) more["TANGENT"] = gltf.file.vec4s(tangents);
+            if (source.handedness != 0)
+                more["TANGENT"] = gltf.atEveryCorner({1, 0, 0, static_cast<float>(source.handedness)});
             if (source.mirrored) more["TEXCOORD_0"] = gltf.file.vec2s(uvs);
             gltf.addQuad(GltfPicture::matte({{"normalTexture", {{"index", texture}, {"scale", scale}}}}),
                          Json::object(), more);
@@ -231,10 +229,8 @@ TEST(GltfMaterial, TangentsWithoutNormalsAreIgnored) {
     GltfPicture gltf;
     const std::array<int, 4> code{220, 150, 200, 255};
     const int texture = gltf.addTexture(1, 1, {code});
-    std::vector<float> tangents;
-    for (int i = 0; i < 4; ++i) tangents.insert(tangents.end(), {0, 1, 0, 1});
     gltf.addQuad(GltfPicture::matte({{"normalTexture", {{"index", texture}}}}), Json::object(),
-                 {{"TANGENT", gltf.file.vec4s(tangents)}, {"NORMAL", nullptr}});
+                 {{"TANGENT", gltf.atEveryCorner({0, 1, 0, 1})}, {"NORMAL", nullptr}});
     const vec3 sun(0.4F, 0.1F, 1.0F);
     const double exact = mappedCosine(glm::dvec3(code[0], code[1], code[2]) / 255.0, 1.0, {}, sun);
     expectEverywhere(pictureOf(gltf, sun, 1), glm::dvec3(exact), kRounding);
@@ -293,8 +289,10 @@ TEST(GltfMaterial, TexelsStandWhereCoordinatesSay) {
             const glm::dvec2 offset(-0.8, 0.6);
             const glm::dvec2 scale(3.0, 2.5);
             std::vector<float> uvs;
-            for (const auto& [x, y] : test::kQuadCorners)
-                uvs.insert(uvs.end(), {0.5F + 0.5F * x, 0.5F - 0.5F * y});
+            for (const auto& [x, y] : test::kQuadCorners) {
+                uvs.push_back(0.5F + 0.5F * x);
+                uvs.push_back(0.5F - 0.5F * y);
+            }
             gltf.addQuad(GltfPicture::matte({{"emissiveFactor", {1, 1, 1}},
                                              {"emissiveTexture",
                                               {{"index", texture},

@@ -164,9 +164,7 @@ TEST(GltfSides, FollowTheDeterminantOfTheNode) {
                 if (skinned) {
                     more["JOINTS_0"] = gltf.file.accessor(std::vector<std::uint16_t>(16, 0),
                                                           test::kUnsignedShort, "VEC4", 4);
-                    std::vector<float> weights;
-                    for (int i = 0; i < 4; ++i) weights.insert(weights.end(), {1, 0, 0, 0});
-                    more["WEIGHTS_0"] = gltf.file.vec4s(weights);
+                    more["WEIGHTS_0"] = gltf.atEveryCorner({1, 0, 0, 0});
                 }
                 const int quad = gltf.addQuad(material, Json::object(), more);
                 if (skinned) {

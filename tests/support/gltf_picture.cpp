@@ -28,6 +28,13 @@ int GltfPicture::addQuad(const Json& material, const Json& node, const Json& mor
     return file.root(placed);
 }
 
+int GltfPicture::atEveryCorner(const std::array<float, 4>& value) {
+    std::vector<float> values;
+    for (std::size_t corner = 0; corner < kQuadCorners.size(); ++corner)
+        for (const float component : value) values.push_back(component);
+    return file.vec4s(values);
+}
+
 int GltfPicture::addTexture(int width, int height, const std::vector<std::array<int, 4>>& texels,
                             const Json& sampler) {
     Image image(width, height, 4);

@@ -19,6 +19,8 @@ public:
     /// Adds the quad [-1,1]^2 at z = 0 that faces +Z, with normals and TEXCOORD_0 (u to the right, v down),
     /// on a node of its own; returns the node's index. `more`: further attributes, name -> accessor.
     int addQuad(const Json& material, const Json& node = Json::object(), const Json& more = Json::object());
+    /// An accessor with that value at each of the quad's corners; returns its index.
+    int atEveryCorner(const std::array<float, 4>& value);
     /// An image of RGBA codes, row by row, and a texture that reads it; returns the texture's index.
     int addTexture(int width, int height, const std::vector<std::array<int, 4>>& texels,
                    const Json& sampler = Json::object());
