@@ -243,9 +243,9 @@ Asset readAsset(const std::filesystem::path& path) {
     checkVersion(document, asset.file);
     checkExtensions(document, asset);
     readBuffers(document, container, asset);
+    requireSizes(document, asset);
     decodeMeshopt(document, asset);
     readImages(document, asset);
-    requireSizes(document, asset);
     parseModel(document, asset);
     return asset;
 }
