@@ -23,23 +23,28 @@ struct Task {
     const char* name;
     Words arguments;
     Words files;
+    const char* depth;  ///< of its places, see faults/layer.cpp
 };
 
 void PrintTo(const Task& task, std::ostream* stream) {
     *stream << task.name;
 }
 
-const Task kTasks[] = {
-    {"Render",
-     {"render", "cornell", "--size", "8", "--spp", "2", "--bounces", "2", "-o", "a.png", "-o", "a.exr",
-      "--report", "r.json", "--quiet"},
-     {"a.exr", "a.png", "r.json"}},
-    {"RenderByQueues",
-     {"render", "quad.gltf", "--size", "8", "--spp", "2", "--bounces", "2", "--queues", "--adaptive", "--aov",
-      "all", "--background", "1,1,1", "-o", "a.exr", "--quiet"},
-     {"a.exr"}},
-    {"Bench", {"bench", "cornell", "--size", "8", "--runs", "1", "--json", "b.json", "--quiet"}, {"b.json"}},
-    {"Devices", {"devices"}, {}}};
+const Task kTasks[] = {{"Render",
+                        {"render", "cornell", "--size", "8", "--spp", "2", "--bounces", "2", "-o", "a.png",
+                         "-o", "a.exr", "--report", "r.json", "--quiet"},
+                        {"a.exr", "a.png", "r.json"},
+                        "2"},
+                       {"RenderByQueues",
+                        {"render", "quad.gltf", "--size", "8", "--spp", "2", "--bounces", "2", "--queues",
+                         "--adaptive", "--aov", "all", "--background", "1,1,1", "-o", "a.exr", "--quiet"},
+                        {"a.exr"},
+                        "2"},
+                       {"Bench",
+                        {"bench", "cornell", "--size", "8", "--runs", "1", "--json", "b.json", "--quiet"},
+                        {"b.json"},
+                        "1"},
+                       {"Devices", {"devices"}, {}, "2"}};
 
 /// A textured quad.
 const char* const kQuad =
@@ -53,11 +58,15 @@ const char* const kQuad =
 "bufferViews": [{"buffer": 0, "byteLength": 36}],
 "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})";
 
+bool nightly() {
+    return std::getenv("LICHT_NIGHTLY") != nullptr;
+}
+
 Outcome runUnder(const ScratchFolder& folder, const Task& task, const Environment& faults) {
     Environment environment{{"LICHT_VALIDATION", "0"},
                             {"VK_LAYER_PATH", LICHT_FAULTS},
                             {"VK_INSTANCE_LAYERS", "VK_LAYER_LICHT_faults"}};
-    if (std::getenv("LICHT_NIGHTLY") != nullptr) environment.emplace_back("LICHT_FAULTS_DEPTH", "4");
+    environment.emplace_back("LICHT_FAULTS_DEPTH", nightly() ? "4" : task.depth);
     environment.insert(environment.end(), faults.begin(), faults.end());
     folder.write("quad.gltf", kQuad);
     return runLicht(folder, task.arguments, environment);
@@ -115,7 +124,7 @@ class DeviceFaults : public testing::TestWithParam<std::tuple<Task, std::size_t>
 TEST_P(DeviceFaults, EveryCallMayFailOnce) {
     const auto& [task, part] = GetParam();
     const Words places = placesOf(task);
-    ASSERT_GT(places.size(), 5U);
+    ASSERT_GE(places.size(), 5U);
     std::map<std::string, int> failures;
     for (std::size_t i = part; i < places.size(); i += kParts) {
         SCOPED_TRACE(places[i]);
@@ -131,16 +140,17 @@ TEST_P(DeviceFaults, EveryCallMayFailOnce) {
 
 INSTANTIATE_TEST_SUITE_P(Cli, DeviceFaults,
                          testing::Combine(testing::ValuesIn(kTasks), testing::Range<std::size_t>(0, kParts)),
-                         [](const testing::TestParamInfo<std::tuple<Task, std::size_t>>& info) {
-                             return std::string(std::get<0>(info.param).name) +
-                                    std::to_string(std::get<1>(info.param));
+                         [](const testing::TestParamInfo<std::tuple<Task, std::size_t>>& named) {
+                             return std::string(std::get<0>(named.param).name) +
+                                    std::to_string(std::get<1>(named.param));
                          });
 
 class HungDevice : public testing::TestWithParam<Task> {};
 
+// Nightly every submission of a run, else the first ones and fewer of the later ones.
 TEST_P(HungDevice, IsGivenUpWhicheverSubmissionItIs) {
     int hung = 0;
-    for (int submission = 1;; ++submission) {
+    for (int submission = 1;; submission += nightly() ? 1 : 1 + submission / 2) {
         SCOPED_TRACE(submission);
         const ScratchFolder folder;
         const Outcome outcome =
@@ -154,9 +164,9 @@ TEST_P(HungDevice, IsGivenUpWhicheverSubmissionItIs) {
     EXPECT_GE(hung, 2);
 }
 
-INSTANTIATE_TEST_SUITE_P(Cli, HungDevice, testing::ValuesIn(kTasks, kTasks + 3),
-                         [](const testing::TestParamInfo<Task>& info) {
-                             return std::string(info.param.name);
+INSTANTIATE_TEST_SUITE_P(Cli, HungDevice, testing::ValuesIn(kTasks, kTasks + 2),
+                         [](const testing::TestParamInfo<Task>& named) {
+                             return std::string(named.param.name);
                          });
 
 }  // namespace
