@@ -76,12 +76,14 @@ constexpr auto namesOf(Sequence) {
          {"random", Sequence::random}});
 }
 
-/// What a dielectric's specular layer leaves to the diffuse layer below: what it does not reflect, by
-/// directional albedos; or, by glTF's formula, 1 - F at the half vector.
-enum class Layering : std::uint32_t { albedo = kLayeringAlbedo, gltf = kLayeringGltf };
+/// What a layer leaves to what lies below: what it does not reflect, by its directional albedo towards the
+/// view alone or by those of both directions; or, by glTF's formula, 1 - F at the half vector.
+enum class Layering : std::uint32_t { view = kLayeringView, albedo = kLayeringAlbedo, gltf = kLayeringGltf };
 constexpr auto namesOf(Layering) {
-    return std::to_array<NamedChoice<Layering>>({{"albedo", Layering::albedo, "gives what it gets"},
-                                                 {"gltf", Layering::gltf, "gains at grazing angles"}});
+    return std::to_array<NamedChoice<Layering>>(
+        {{"view", Layering::view, "gives what it gets"},
+         {"albedo", Layering::albedo, "so does that, and is reciprocal"},
+         {"gltf", Layering::gltf, "reciprocal, but gains at grazing angles"}});
 }
 
 /// Whether light that one microfacet sends to another one is kept or lost.

@@ -27,7 +27,7 @@ struct RenderSettings {
     /// cd/m^2 that one indirect contribution may add to a pixel; 0: unlimited (unbiased).
     float clamp = 0.0F;
     bool regularise = false;  ///< widen glossy lobes behind a first scattering (biased)
-    Layering layering = Layering::albedo;
+    Layering layering = Layering::view;
     Energy energy = Energy::multiple;
     bool orders = false;    ///< keep a layer per order T^i Le
     bool adaptive = false;  ///< samples are drawn where a mask says so

@@ -76,6 +76,7 @@ struct Spot {
     bool tangents;  // the vertices have them
     bool front;     // wo is where the triangle's front faces
     vec3 normal;    // interpolated, unit, world, on the triangle's front
+    vec3 face;      // the triangle's own, unit, world, on the side of wo
     vec3 wo;        // unit, world
 };
 
@@ -107,6 +108,17 @@ vec3 shadingNormal(MaterialRecord m, uint kind, Texels texels, float scale, Spot
     return away < kLowestCosine ? normalize(n + (kLowestCosine - away) * 1.0001 * p.wo) : n;
 }
 
+// That normal as mirrors have it: bent towards the face until the mirror image of wo is above it. Where interpolation or the map tilts it further, the surface
+// would reflect itself, black because nothing is found below it. Keller et al. 2017, The iray light transport simulation and rendering system; the height
+// that is kept above the face is that of Cycles. No energy of a polished surface is lost; reciprocity is, where it is bent, for it depends on wo.
+vec3 mirroringNormal(vec3 n, Spot p) {
+    vec3 mirrored = 2.0 * dot(n, p.wo) * n - p.wo;
+    // Lower than wo, so that a flat surface keeps its normal; and more than rounding, so that what is normalised is there.
+    float lowest = clamp(0.9 * dot(p.face, p.wo), 1e-4, 0.01);
+    float below = lowest - dot(p.face, mirrored);
+    return below > 0.0 ? normalize(p.wo + normalize(mirrored + below * p.face)) : n;
+}
+
 // Its normal in the world: the base's normal map has no part in it.
 Clearcoat clearcoatOf(MaterialRecord m, Texels texels, Spot p) {
     if (!kClearcoat || !hasBlock(m, kBlockClearcoat)) return kNoClearcoat;
@@ -114,7 +126,7 @@ Clearcoat clearcoatOf(MaterialRecord m, Texels texels, Spot p) {
     ClearcoatRecord c = ClearcoatRecord(a.x, a.y, a.z, a.w);
     float factor = c.factor * texels.of[kSlotClearcoat].r;
     float roughness = c.roughness * texels.of[kSlotClearcoatRoughness].g;
-    return Clearcoat(factor, alphaOf(roughness), shadingNormal(m, kSlotClearcoatNormal, texels, c.normal_scale, p));
+    return Clearcoat(factor, alphaOf(roughness), mirroringNormal(shadingNormal(m, kSlotClearcoatNormal, texels, c.normal_scale, p), p));
 }
 
 // Whether a surface may send different light from its points or in different directions.
@@ -128,7 +140,7 @@ vec3 emissionOf(MaterialRecord m, Texels texels, Spot p, Clearcoat coat) {
 }
 
 // frame: around the shading normal, in which the BSDF is local. base: the base colour. coat: in the world.
-Bsdf bsdfOf(MaterialRecord m, Texels texels, Frame frame, vec3 base, Clearcoat coat) {
+Bsdf bsdfOf(MaterialRecord m, Texels texels, Frame frame, vec3 base, Clearcoat coat, Spot p) {
     if (!kGlossy) return lambertBsdf(base);
     float metallic = m.metallic * texels.of[kSlotMetallicRoughness].b;
     float roughness = m.roughness * texels.of[kSlotMetallicRoughness].g;
@@ -137,6 +149,7 @@ Bsdf bsdfOf(MaterialRecord m, Texels texels, Frame frame, vec3 base, Clearcoat c
     vec3 dielectric_f0 = min(m.dielectric_f0 * specular_color, vec3(1.0)) * specular;
     Bsdf b = Bsdf(Diffuse(base * (1.0 - metallic)), plainSpecular(alphaOf(roughness), dielectric_f0, specular, base, metallic),
                   Clearcoat(coat.factor, coat.alpha, localFromWorld(frame, coat.normal)));
+    b.specular.normal = localFromWorld(frame, mirroringNormal(frame.normal, p));
     if (kIridescence && hasBlock(m, kBlockIridescence)) {
         IridescenceRecord iridescence = iridescenceOf(m);
         float thickness = iridescence.thickness_maximum;

@@ -64,7 +64,8 @@ Face faceOf(Placement at, vec3 p0, vec3 p1, vec3 p2) {
 Spot spotAt(InstanceRecord instance, uvec3 v, vec3 weights, Placement at, vec3 face_normal, bool front, vec3 wo) {
     vec3 n = interpolate(weights, worldNormal(at, vertexAt(v.x).normal), worldNormal(at, vertexAt(v.y).normal), worldNormal(at, vertexAt(v.z).normal));
     float n2 = dot(n, n);
-    return Spot(v, weights, at, (instance.flags & kInstanceTangents) != 0u, front, n2 > 0.0 ? n * inversesqrt(n2) : face_normal, wo);
+    return Spot(v, weights, at, (instance.flags & kInstanceTangents) != 0u, front, n2 > 0.0 ? n * inversesqrt(n2) : face_normal,
+                front ? face_normal : -face_normal, wo);
 }
 
 // What a triangle that is no place of a hit emits, a point of a light, to all rays on average: by its coverage. face_normal: unit, of its front.
@@ -103,7 +104,7 @@ Surface surfaceAt(Hit hit, vec3 wo) {
     s.unlit = kUnlit && (m.flags & kMaterialUnlit) != 0u;
     s.base_color = base.rgb;
     Clearcoat coat = clearcoatOf(m, texels, spot);
-    s.bsdf = bsdfOf(m, texels, s.frame, base.rgb, coat);
+    s.bsdf = bsdfOf(m, texels, s.frame, base.rgb, coat, spot);
     s.emission = emissionOf(m, texels, spot, coat);
     s.light = kNoIndex;
     if (kLightTriangles && instance.first_light != kNoIndex && largest(s.emission) > 0.0) s.light = instance.first_light + hit.primitive;

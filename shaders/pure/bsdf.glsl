@@ -42,8 +42,9 @@ float albedoOfSpread(Bsdf b, float cos_o) {
 // Share of samples spent on the specular layer: by what it sends towards wo against what is spread evenly.
 float shareOfSpecular(Bsdf b, vec3 wo) {
     const float kLeastSpread = 0.02;  // less of it is found by samples of the specular layer, whose tails reach everywhere
-    float specular = largest(albedoSpecular(b.specular, wo.z));
-    float spread = albedoOfSpread(b, wo.z);
+    float cos_o = dot(wo, b.specular.normal);
+    float specular = largest(albedoSpecular(b.specular, cos_o));
+    float spread = albedoOfSpread(b, cos_o);
     if (specular <= 0.0 && !hasThinFilm(b.specular)) return 0.0;
     if (spread <= kLeastSpread * specular && largest(albedoDiffuse(b.diffuse)) <= 0.0) return 1.0;
     return shareOfLobe(specular, spread);
@@ -52,7 +53,7 @@ float shareOfSpecular(Bsdf b, vec3 wo) {
 // Share of samples spent on the clearcoat.
 float shareOfClearcoat(Bsdf b, vec3 wo) {
     float coat = albedoClearcoat(b.clearcoat, wo);
-    return shareOfLobe(coat, (1.0 - coat) * min(largest(albedoSpecular(b.specular, wo.z)) + largest(albedoDiffuse(b.diffuse)), 1.0));
+    return shareOfLobe(coat, (1.0 - coat) * min(largest(albedoSpecular(b.specular, dot(wo, b.specular.normal))) + largest(albedoDiffuse(b.diffuse)), 1.0));
 }
 
 // For choosing lights: the width of its gloss, and what the specular layer reflects of light along the mirror direction, F G / (4 cos_o),
@@ -72,7 +73,7 @@ vec2 glossTowards(Bsdf b, float cos_o) {
 // All that spreads light evenly: the diffuse layer, and what the specular layer's microfacets reflect more than once.
 LobeValue evaluateSpread(Bsdf b, vec3 wo, vec3 wi, vec3 h) {
     Specular s = b.specular;
-    GgxAlbedo towards_o = albedoGgx(wo.z, s.alpha), towards_i = albedoGgx(wi.z, s.alpha), mean = meanAlbedoGgx(s.alpha);
+    GgxAlbedo towards_o = albedoGgx(dot(wo, s.normal), s.alpha), towards_i = albedoGgx(dot(wi, s.normal), s.alpha), mean = meanAlbedoGgx(s.alpha);
     LobeValue spread = evaluateDiffuse(b.diffuse, wi, passSpecular(s, dot(wo, h), towards_o, towards_i, mean));
     if (kEnergy == kEnergyMultiple) spread.f += evaluateMultiple(s, towards_o, towards_i, mean);
     return spread;
@@ -83,12 +84,14 @@ LobeValue evaluateBsdf(Bsdf b, vec3 wo, vec3 wi) {
     if (!kGlossy) return evaluateDiffuse(b.diffuse, wi, 1.0);
     vec3 h = normalize(wo + wi);
     LobeValue specular = evaluateSpecular(b.specular, wo, wi, h), spread = evaluateSpread(b, wo, wi, h);
-    if (!hasClearcoat(b.clearcoat)) return over(specular, spread, shareOfSpecular(b, wo));
-    float albedo_o = albedoClearcoat(b.clearcoat, wo), albedo_i = albedoClearcoat(b.clearcoat, wi);
-    float grazing = meanAlbedoGgx(b.specular.alpha).grazing * b.specular.dielectric_f90;
-    LobeValue base = over(under(passClearcoatToMirror(albedo_o, albedo_i), specular),
-                          under(passClearcoatToDiffuse(b.clearcoat, albedo_o, albedo_i, grazing), spread), shareOfSpecular(b, wo));
-    return over(evaluateClearcoat(b.clearcoat, wo, wi), base, shareOfClearcoat(b, wo));
+    float to_mirror = 1.0, to_diffuse = 1.0;
+    if (hasClearcoat(b.clearcoat)) {
+        float albedo_o = albedoClearcoat(b.clearcoat, wo), albedo_i = albedoClearcoat(b.clearcoat, wi);
+        to_mirror = passClearcoatToMirror(albedo_o, albedo_i);
+        to_diffuse = passClearcoatToDiffuse(b.clearcoat, albedo_o, albedo_i, meanAlbedoGgx(b.specular.alpha).grazing * b.specular.dielectric_f90);
+    }
+    LobeValue base = over(under(to_mirror, specular), under(to_diffuse, spread), shareOfSpecular(b, wo));
+    return hasClearcoat(b.clearcoat) ? over(evaluateClearcoat(b.clearcoat, wo, wi), base, shareOfClearcoat(b, wo)) : base;
 }
 
 // Of one of the lobes; may point below the surface.

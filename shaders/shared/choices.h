@@ -23,9 +23,11 @@ LICHT_CONSTANT uint kSamplerSobol = 0u;
 LICHT_CONSTANT uint kSamplerBlue = 1u;
 LICHT_CONSTANT uint kSamplerRandom = 2u;
 
-// What a dielectric's specular layer leaves to the diffuse layer: by directional albedos, so that both give what they get, or by glTF's formula.
-LICHT_CONSTANT uint kLayeringAlbedo = 0u;
-LICHT_CONSTANT uint kLayeringGltf = 1u;
+// What a layer leaves to what lies below: by directional albedos, so that both give what they get, that of the view alone or of both directions; or by glTF's
+// formula.
+LICHT_CONSTANT uint kLayeringView = 0u;
+LICHT_CONSTANT uint kLayeringAlbedo = 1u;
+LICHT_CONSTANT uint kLayeringGltf = 2u;
 
 // How often light is followed between the microfacets of one spot.
 LICHT_CONSTANT uint kEnergyMultiple = 0u;

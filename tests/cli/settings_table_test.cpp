@@ -221,7 +221,7 @@ TEST(SettingsTable, ProgramsGetTheirConstants) {
                                                       {kConstantAdaptive, 0},
                                                       {kConstantClamp, 0},
                                                       {kConstantRegularise, 0},
-                                                      {kConstantLayering, kLayeringAlbedo},
+                                                      {kConstantLayering, kLayeringView},
                                                       {kConstantEnergy, kEnergyMultiple}}));
     RenderSettings settings;
     settings.direct = DirectLight::area;

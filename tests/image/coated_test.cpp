@@ -1,5 +1,5 @@
-// Pictures of clearcoats against closed forms: what they mirror, what they pass of what shines below, and of
-// which normal.
+// Pictures of clearcoats and of mirrors against closed forms: what they mirror, what they pass of what shines
+// below, and of which normal.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -110,8 +110,8 @@ Scene lampScene(const Material& lamp) {
     return scene;
 }
 
-TEST(Coated, EveryEstimatorFindsTheSameLamp) {
-    const Scene scene = lampScene(coated(1.0F, 4.0F));
+/// By scattering, by sampling lights and by both.
+void expectEveryEstimatorAgrees(const Scene& scene, const std::string& name) {
     ASSERT_TRUE(detectEffects(scene).has(kEffectLightTriangles));
     const Camera camera = downCamera(vec3(1.5F, 0.0F, 0.0F), 0.5F, 0.9F);
     RenderSettings by = settings(1);
@@ -121,8 +121,50 @@ TEST(Coated, EveryEstimatorFindsTheSameLamp) {
     for (const DirectLight direct : {DirectLight::area, DirectLight::mis}) {
         by.direct = direct;
         by.seed = 7;
-        expectSamePicture(renderFilm(scene, camera, by, 256), scattering, "coated_lamp");
+        expectSamePicture(renderFilm(scene, camera, by, 256), scattering, name);
     }
+}
+
+TEST(Coated, EveryEstimatorFindsTheSameLamp) {
+    expectEveryEstimatorAgrees(lampScene(coated(1.0F, 4.0F)), "coated_lamp");
+}
+
+Material whiteMetal(float roughness) {
+    Material m = lambert(1.0F);
+    m.metallic = 1.0F;
+    m.roughness = roughness;
+    m.slots[kSlotNormal].texture = 0;
+    return m;
+}
+
+// Far tilted: mirror images of most directions are below the floor.
+const vec3 kTilts[]{{0.9F, 0.0F, 0.44F}, {0.0F, 0.9F, 0.44F}, {0.0F, -0.9F, 0.44F}, {-0.6F, 0.6F, 0.53F}};
+
+// A mirror shows a sky of one wherever its normal map points. Bent normals mirror to a sine of 0.01 above the
+// floor at least: below it are half vectors tilted by more than t = 0.005, of which the lobe of width a =
+// 1e-3 has (1 - t / sqrt(t^2 + a^2)) / 2 = 0.0097.
+TEST(MappedMirror, ShowsTheSkyUnderEveryTilt) {
+    dvec3 stored;
+    for (const vec3& tilt : kTilts)
+        for (const double cosine : {0.95, 0.6, 0.3, 0.1}) {
+            Scene scene = floorOf(whiteMetal(0.0F));
+            scene.textures = {normalTexel(tilt, stored)};
+            scene.environment = constantEnvironment(vec3(1.0F));
+            const PictureMean mean = pictureMean(renderFilm(scene, cameraAt(cosine), settings(1), 64), 0);
+            const double noise = 4.5 * mean.standard_error + 1e-5;
+            EXPECT_LE(mean.mean, 1.0 + noise) << tilt.x << " " << tilt.y << ", cosine " << cosine;
+            EXPECT_GE(mean.mean, 1.0 - 0.0097 - noise) << tilt.x << " " << tilt.y << ", cosine " << cosine;
+        }
+}
+
+TEST(MappedMirror, EveryEstimatorFindsTheSameLamp) {
+    dvec3 stored;
+    Scene scene = lampScene(lambert(0.0F, 4.0F));
+    Scene mapped = floorOf(whiteMetal(0.5F));
+    scene.materials[0] = mapped.materials[0];
+    scene.meshes[0].tangents = mapped.meshes[0].tangents;
+    scene.textures = {normalTexel(kTilts[3], stored)};
+    expectEveryEstimatorAgrees(scene, "mapped_mirror");
 }
 
 Scene coatedScene() {

@@ -205,13 +205,14 @@ constexpr double kGain = 0.001;  // and that much too much
 TEST(Energy, AWhitePlaneUnderAnyDielectricShowsOne) {
     test::Kernel multiple = balanced();
     test::Kernel single("energy", energy_comp, {{kConstantEnergy, kEnergySingle}});
+    test::Kernel by_view("energy", energy_comp, {{kConstantLayering, kLayeringView}});
     for (const float f0 : {0.0F, 0.04F, 0.17F})
         for (const float f90 : {0.5F, 1.0F})
             for (const double roughness : kRoughnesses)
                 for (const double degrees : kDegrees) {
                     const auto alpha = static_cast<float>(roughness * roughness);
                     const Material m = test::plastic(vec3(1.0F), alpha, f0 * f90, f90);
-                    for (test::Kernel* kernel : {&multiple, &single}) {
+                    for (test::Kernel* kernel : {&multiple, &single, &by_view}) {
                         const Total all = total(*kernel, m, cosineOf(degrees));
                         const std::string what = "f0 " + std::to_string(f0) + ", f90 " + std::to_string(f90) +
                                                  ", roughness " + std::to_string(roughness) + ", degrees " +

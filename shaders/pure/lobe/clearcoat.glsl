@@ -27,14 +27,14 @@ bool hasClearcoat(Clearcoat c) { return kClearcoat && c.factor > 0.0; }
 // By a cosine with its half vector or, where it is smooth, with its normal. Below its horizon: all.
 float reflectanceClearcoat(float factor, float cosine) { return factor * fresnelSchlick(vec3(kClearcoatF0), 1.0, cosine).x; }
 
-// wo and wi in the frame of what lies below, whose cosine the caller multiplies by: f has the coat's own over that.
+// wo and wi in the frame of what lies below, by whose cosine the caller multiplies.
 LobeValue evaluateClearcoat(Clearcoat c, vec3 wo, vec3 wi) {
     Frame frame = frameFromNormal(c.normal);
     vec3 o = localFromWorld(frame, wo), i = localFromWorld(frame, wi);
     if (!sameSide(o, i)) return kNothing;
     vec3 h = normalize(o + i);
-    GgxValue ggx = evaluateGgx(c.alpha, o, i, h);
-    return LobeValue(vec3(reflectanceClearcoat(c.factor, dot(o, h)) * ggx.f * (i.z / wi.z)), ggx.pdf);
+    GgxValue ggx = evaluateGgx(c.alpha, o, i, h, wi.z);
+    return LobeValue(vec3(reflectanceClearcoat(c.factor, dot(o, h)) * ggx.f), ggx.pdf);
 }
 
 // What leaves below the coat's own horizon leaves below everything: it must not pass for a sample of the other lobes.
@@ -52,11 +52,11 @@ float albedoClearcoat(Clearcoat c, vec3 wo) {
 
 // To layers that mirror. Of both directions the lesser share: reciprocal, and what lies below sends at most its own times (1 - F(wo)), as the extension's
 // document has it for wo alone, so that both together never give more than they get, whatever lies below. (The quotient would gain over a mirror.)
-float passClearcoatToMirror(float albedo_o, float albedo_i) { return 1.0 - max(albedo_o, albedo_i); }
+float passClearcoatToMirror(float albedo_o, float albedo_i) { return 1.0 - (kLayering == kLayeringView ? albedo_o : max(albedo_o, albedo_i)); }
 
 // To layers that spread light evenly. grazing_below: of the mean albedo of the layers below, what comes of their reflecting more at grazing angles.
 float passClearcoatToDiffuse(Clearcoat c, float albedo_o, float albedo_i, float grazing_below) {
-    if (kLayering == kLayeringGltf) return passClearcoatToMirror(albedo_o, albedo_i);
+    if (kLayering != kLayeringAlbedo) return passClearcoatToMirror(albedo_o, albedo_i);
     // What comes through a layer below comes steeply, where the coat passes more than on average. For two smooth ones that is the mean of (1 - F)^2 over the
     // square of that of 1 - F, (1 - 2/21 + 1/66) / (1 - 1/21)^2; rough ones have their part in it less by as much as their grazing angles, 1/21 for smooth.
     const float kAlike = 0.0142;

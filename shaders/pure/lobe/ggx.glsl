@@ -33,14 +33,14 @@ float ggxG1(vec3 w, float alpha) { return 1.0 / (1.0 + ggxLambda(w, alpha)); }
 float ggxG2(vec3 wo, vec3 wi, float alpha) { return 1.0 / (1.0 + ggxLambda(wo, alpha) + ggxLambda(wi, alpha)); }
 
 struct GgxValue {
-    float f;    // 1/sr, without the cosine
+    float f;    // 1/sr, to be multiplied by the cosine that was given
     float pdf;  // of wi given wo, solid angle: D_visible / (4 wo.h)
 };
 
-// h: the half vector.
-GgxValue evaluateGgx(float alpha, vec3 wo, vec3 wi, vec3 h) {
+// h: the half vector. cos_i: what f is multiplied by, wi.z unless the microfacets lie in a frame of their own.
+GgxValue evaluateGgx(float alpha, vec3 wo, vec3 wi, vec3 h, float cos_i) {
     float d = ggxD(h, alpha);
-    return GgxValue(d * ggxG2(wo, wi, alpha) / (4.0 * wo.z * wi.z), ggxG1(wo, alpha) * d / (4.0 * wo.z));
+    return GgxValue(d * ggxG2(wo, wi, alpha) / (4.0 * wo.z * cos_i), ggxG1(wo, alpha) * d / (4.0 * wo.z));
 }
 
 // A half vector from the distribution of visible normals. Dupuy and Benyoub 2023, Sampling Visible GGX Normals with Spherical Caps.

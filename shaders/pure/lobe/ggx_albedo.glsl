@@ -8,9 +8,9 @@
 
 // Of microfacets whose reflectance is Schlick's f0 + (f90 - f0) (1 - cos)^5, the albedo is linear in f0 and f90.
 struct GgxAlbedo {
-    float white;        // f0 = f90 = 1
-    float grazing;      // f0 = 0, f90 = 1
-    float half_cosine;  // between the direction and the half vectors, on average
+    float white;    // f0 = f90 = 1
+    float grazing;  // f0 = 0, f90 = 1
+    float cosine;   // of the direction; a mean: of what it is the mean of
 };
 
 float albedoOf(GgxAlbedo a, float f0, float f90) { return f0 * (a.white - a.grazing) + f90 * a.grazing; }
@@ -44,8 +44,7 @@ GgxAlbedo albedoGgx(float cosine, float alpha) {
     float c = clamp(cosine, 0.0, 1.0);
     float stretched = c * inversesqrt(max(c * c + alpha * alpha * (1.0 - c * c), 1e-30));
     float white = 1.0 - lossOfGgx(2.0 * stretched / (1.0 + stretched), alpha);  // G1 of that cosine
-    float half_cosine = meanHalfCosine(c, stretched, alpha);
-    return GgxAlbedo(white, white * fresnelSchlick(vec3(0.0), 1.0, half_cosine).x, half_cosine);
+    return GgxAlbedo(white, white * fresnelSchlick(vec3(0.0), 1.0, meanHalfCosine(c, stretched, alpha)).x, c);
 }
 
 // The means of both over the hemisphere, by cosine. What an angle loses over the mean loss is not more than 0.002 above and 0.006 below the quotient.
