@@ -26,7 +26,12 @@ ProgressLine::ProgressLine(std::FILE* stream, bool quiet)
     : stream_(stream), active_(!quiet && ::isatty(::fileno(stream)) == 1) {}
 
 ProgressLine::~ProgressLine() {
+    clear();
+}
+
+void ProgressLine::clear() {
     if (!drawn_) return;
+    drawn_ = false;
     std::fputs(kClearLine, stream_);
     std::fflush(stream_);
 }
@@ -40,6 +45,11 @@ void ProgressLine::show(const std::string& text) {
     const auto now = std::chrono::steady_clock::now();
     if (drawn_ && now - last_ < kShortestPause) return;
     last_ = now;
+    announce(text);
+}
+
+void ProgressLine::announce(const std::string& text) {
+    if (!active_) return;
     drawn_ = true;
     std::fputs((kClearLine + text).c_str(), stream_);
     std::fflush(stream_);

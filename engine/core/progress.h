@@ -29,6 +29,10 @@ public:
 
     void show(const ProgressState& state);
     void show(const std::string& text);
+    /// Shown even where the line was drawn just now: what is said next may be long in coming.
+    void announce(const std::string& text);
+    /// For what else is to be said on that stream.
+    void clear();
 
 private:
     std::FILE* stream_;

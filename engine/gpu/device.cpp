@@ -74,6 +74,7 @@ Device::Device() : messages_(std::make_unique<Messages>()) {}
 
 // Delegates, so that the destructor cleans up when a later step throws.
 Device::Device(const DeviceOptions& options) : Device() {
+    on_compiling_ = options.on_compiling;
     createInstance(options);
     if (options.create_surface) {
         surface_ = options.create_surface(instance_);
@@ -93,6 +94,11 @@ Device::Device(const DeviceOptions& options) : Device() {
     report_.chosen = true;
     createDevice(surface_ != VK_NULL_HANDLE);
     ballot_trouble_ = checkDevice(*this);
+}
+
+void Device::tellCompiling(std::string_view program) {
+    ++compiled_programs_;
+    if (on_compiling_) on_compiling_(program);
 }
 
 void Device::createInstance(const DeviceOptions& options) {

@@ -40,6 +40,8 @@ struct DeviceOptions {
     /// Told every validation message at once, also those of the device's own destruction. May be called from
     /// any thread.
     std::function<void(const std::string&)> on_validation_message;
+    /// Told every program before it is compiled, which takes minutes with some drivers.
+    std::function<void(std::string_view program)> on_compiling;
 };
 
 /// Every device with its refusals; `chosen` marks the one that `options` would take. Throws DeviceError when
@@ -88,7 +90,8 @@ public:
 
     /// Programs compiled so far.
     [[nodiscard]] std::uint64_t compiledPrograms() const { return compiled_programs_; }
-    void countCompiledProgram() { ++compiled_programs_; }
+    /// For Program, before it compiles: counts it and tells DeviceOptions::on_compiling.
+    void tellCompiling(std::string_view program);
 
     /// Validation messages so far (warnings and errors). Tests demand none.
     [[nodiscard]] std::vector<std::string> validationMessages() const;
@@ -141,6 +144,7 @@ private:
     std::uint64_t device_bytes_ = 0;
     std::uint64_t device_peak_bytes_ = 0;
     std::uint64_t compiled_programs_ = 0;
+    std::function<void(std::string_view program)> on_compiling_;
     std::unique_ptr<Messages> messages_;
 };
 

@@ -168,11 +168,11 @@ Program Program::compute(Device& device, std::string name, Spirv shader, const S
     info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
     info.stage = stageInfo(stage, module, specialization);
     info.layout = program.layout_;
+    device.tellCompiling(program.name_);
     check(vkCreateComputePipelines(device.handle(), device.pipelineCache(), 1, &info, nullptr,
                                    &program.pipeline_),
           fmt::format("compiling '{}'", program.name_));
     device.setName(VK_OBJECT_TYPE_PIPELINE, std::bit_cast<std::uint64_t>(program.pipeline_), program.name_);
-    device.countCompiledProgram();
     program.compile_seconds_ = secondsSince(start);
     return program;
 }
@@ -249,11 +249,11 @@ Program Program::raster(Device& device, std::string name, Spirv vertex, Spirv fr
     info.pColorBlendState = &blend;
     info.pDynamicState = &dynamic;
     info.layout = program.layout_;
+    device.tellCompiling(program.name_);
     check(vkCreateGraphicsPipelines(device.handle(), device.pipelineCache(), 1, &info, nullptr,
                                     &program.pipeline_),
           fmt::format("compiling '{}'", program.name_));
     device.setName(VK_OBJECT_TYPE_PIPELINE, std::bit_cast<std::uint64_t>(program.pipeline_), program.name_);
-    device.countCompiledProgram();
     program.compile_seconds_ = secondsSince(start);
     return program;
 }

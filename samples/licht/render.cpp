@@ -146,6 +146,16 @@ void requireFilesOfItsOwn(const RenderOptions& options, const Scene& scene, cons
     requireOwnFiles(outputs, inputs);
 }
 
+/// Long compilations show which program they are at.
+gpu::DeviceOptions deviceOptions(const RenderOptions& options, std::optional<ProgressLine>& progress) {
+    gpu::DeviceOptions device_options;
+    device_options.device = options.device;
+    device_options.on_compiling = [&progress](std::string_view program) {
+        if (progress) progress->announce(fmt::format("compiling '{}'", program));
+    };
+    return device_options;
+}
+
 }  // namespace
 
 int render(const RenderOptions& options) {
@@ -173,21 +183,22 @@ int render(const RenderOptions& options) {
     }
     requireFilesOfItsOwn(options, source.scene, report);
 
-    gpu::DeviceOptions device_options;
-    device_options.device = options.device;
-    gpu::Device device(device_options);
+    std::optional<ProgressLine> progress(std::in_place, stderr, options.quiet);
+    gpu::Device device(deviceOptions(options, progress));
     RunSettings run = options.run;
     run.render.size = shot.size;
     const RunPlan plan = planRun(device, source.scene, shot.camera, run);
     report.settings = plan.settings;
     report.depth = plan.depth;
     report.regularisation = plan.regularisation;
-    if (!options.quiet) warnOfPlan(plan, device.report());
     Renderer renderer(device, source.scene, shot.camera, plan.settings);
-    if (!options.quiet) printWarnings(source.scene);
+    progress->clear();
+    if (!options.quiet) {
+        warnOfPlan(plan, device.report());
+        printWarnings(source.scene);
+    }
 
     InterruptWatch interrupt;
-    std::optional<ProgressLine> progress(std::in_place, stderr, options.quiet);
     const LoopHooks hooks{[&interrupt] { return interrupt.asked(); },
                           [&progress](const ProgressState& state) { progress->show(state); }};
     const LoopResult result = renderUntil(renderer, plan.settings, plan.rules, hooks);

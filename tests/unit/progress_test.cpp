@@ -83,6 +83,22 @@ TEST(ProgressLine, IsDrawnAtMostTenTimesASecond) {
     EXPECT_LE(static_cast<double>(drawn), 1.0 + 10.0 * seconds.count());
 }
 
+TEST(ProgressLine, AnnouncesAtOnceAndShowsBehindIt) {
+    const Terminal terminal;
+    {
+        ProgressLine line(terminal.stream(), false);
+        line.announce("compiling 'a'");
+        line.announce("compiling 'b'");
+        line.show(ProgressState{1, 4, 0.1, -1.0, -1.0});
+    }
+    const std::string text = terminal.written();
+    const std::size_t first = text.find("compiling 'a'");
+    const std::size_t second = text.find("compiling 'b'");
+    EXPECT_LT(first, second) << text;
+    EXPECT_NE(second, std::string::npos) << text;
+    EXPECT_NE(text.find("1/4 samples", second), std::string::npos) << text;
+}
+
 TEST(ProgressLine, IsSilentWhenQuietOrNoTerminal) {
     const Terminal terminal;
     { ProgressLine(terminal.stream(), true).show(ProgressState{1, 4, 0.1, -1.0, -1.0}); }
