@@ -71,6 +71,8 @@ private:
         if (key == "PRIMARIES") {
             const auto xy = numbersIn<8>(value);
             if (!xy) refuse("its PRIMARIES are not eight numbers");
+            // Converters write zeros where they know none.
+            if (*xy == std::array<double, 8>{}) return;
             header_.primaries = {
                 {(*xy)[0], (*xy)[1]}, {(*xy)[2], (*xy)[3]}, {(*xy)[4], (*xy)[5]}, {(*xy)[6], (*xy)[7]}};
         }

@@ -146,6 +146,26 @@ void requireFilesOfItsOwn(const RenderOptions& options, const Scene& scene, cons
     requireOwnFiles(outputs, inputs);
 }
 
+/// What is known before anything is drawn: what was asked for, and where the pictures go.
+RenderReport beginReport(const RenderOptions& options, const NamedScene& source, const Shot& shot) {
+    RenderReport report;
+    report.scene = options.source.scene;
+    report.camera = shot.camera_name;
+    if (source.scene.environment) report.environment = source.scene.environment->name;
+    report.environment_rotation = options.source.environment_rotation.value_or(0.0);
+    report.environment_strength = options.source.environment_strength.value_or(1.0);
+    report.size = shot.size;
+    report.asked = options.run;
+    report.notes = source.scene.notes;
+    report.outputs = options.outputs;
+    if (report.outputs.empty()) {
+        report.outputs.emplace_back(source.name + ".png");
+        checkWritable(report.outputs.front());
+        requireNoStranger(report.outputs.front());
+    }
+    return report;
+}
+
 /// Long compilations show which program they are at.
 gpu::DeviceOptions deviceOptions(const RenderOptions& options, std::optional<ProgressLine>& progress) {
     gpu::DeviceOptions device_options;
@@ -165,22 +185,8 @@ int render(const RenderOptions& options) {
     const Clock::time_point load_start = Clock::now();
     const NamedScene source = loadScene(options.source);
     const Shot shot = chooseShot(source, options.source.camera, options.size);
-    RenderReport report;
+    RenderReport report = beginReport(options, source, shot);
     report.load_seconds = secondsSince(load_start);
-    report.scene = options.source.scene;
-    report.camera = shot.camera_name;
-    if (source.scene.environment) report.environment = source.scene.environment->name;
-    report.environment_rotation = options.source.environment_rotation.value_or(0.0);
-    report.environment_strength = options.source.environment_strength.value_or(1.0);
-    report.size = shot.size;
-    report.asked = options.run;
-    report.notes = source.scene.notes;
-    report.outputs = options.outputs;
-    if (report.outputs.empty()) {
-        report.outputs.emplace_back(source.name + ".png");
-        checkWritable(report.outputs.front());
-        requireNoStranger(report.outputs.front());
-    }
     requireFilesOfItsOwn(options, source.scene, report);
 
     std::optional<ProgressLine> progress(std::in_place, stderr, options.quiet);

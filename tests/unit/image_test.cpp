@@ -420,6 +420,7 @@ TEST_F(HdrTest, HeadersThatScaleAreObeyed) {
     EXPECT_EQ(first("COLORCORR=2 1 0.5\nEXPOSURE=2\n"), (std::vector<float>{0.25F, 0.25F, 0.25F}));
     EXPECT_EQ(first("PRIMARIES=0.64 0.33 0.3 0.6 0.15 0.06 0.3127 0.329\n"),
               (std::vector<float>{1.0F, 0.5F, 0.25F}));
+    EXPECT_EQ(first("PRIMARIES=0 0 0 0 0 0 0 0\n"), (std::vector<float>{1.0F, 0.5F, 0.25F})) << "not said";
     // The white of other primaries stays white.
     put(folder_ / "white.hdr", radianceUnder("PRIMARIES=0.708 0.292 0.17 0.797 0.131 0.046 0.3127 0.329\n"));
     EXPECT_NEAR(readRadianceMap(folder_ / "white.hdr").texels[3], 1048576.0F, 1.0F);
@@ -434,7 +435,7 @@ TEST_F(HdrTest, HeadersThatAreNotUnderstoodAreRefusedWithTheReason) {
     refused(radianceUnder("EXPOSURE=bright\n"), "EXPOSURE is no positive number");
     refused(radianceUnder("COLORCORR=1 -1 1\n"), "COLORCORR is no positive number");
     refused(radianceUnder("PRIMARIES=1 2 3\n"), "PRIMARIES are not eight numbers");
-    refused(radianceUnder("PRIMARIES=0 0 0 0 0 0 0 0\n"), "primaries span no triangle");
+    refused(radianceUnder("PRIMARIES=0 0 0 0 0 0 1 1\n"), "primaries span no triangle");
     refused(radianceUnder("FORMAT=32-bit_rle_xyze\n"), "its numbers are XYZ");
     refused(radianceUnder("FORMAT=32-bit_rle_rgbe\n", "+Y 2 +X 2"), "'+Y 2 +X 2'");
 }
