@@ -158,6 +158,8 @@ void Commands::wait(double timeout_seconds) {
         device_.giveUp();
         throw HungDeviceError(fmt::format("the device did not finish within {} seconds", timeout_seconds));
     }
+    // A wait that failed is no end of the work: whoever is told of it frees what the work uses.
+    if (result != VK_SUCCESS) vkDeviceWaitIdle(device_.handle());
     check(result, "waiting for the device");
     check(vkResetFences(device_.handle(), 1, &fence_), "resetting a fence");
     pending_ = false;

@@ -1,7 +1,6 @@
 #include "licht/image/files.h"
 
 #include <fmt/format.h>
-#include <stb_image.h>
 #include <stb_image_write.h>
 
 #include <algorithm>
@@ -13,6 +12,7 @@
 #include <cmath>
 #include <cstring>
 #include <memory>
+#include <stdexcept>
 #include <string_view>
 
 #include "licht/core/error.h"
@@ -20,6 +20,19 @@
 #include "licht/core/memory.h"
 #include "licht/image/exr.h"
 #include "licht/image/hdr_header.h"
+
+namespace licht {
+namespace {
+struct DecoderFailure {};
+}  // namespace
+}  // namespace licht
+
+// The package's library ends the program where the codes of a damaged JPEG contradict each other; compiled here,
+// that is an error like others.
+#define STBI_ASSERT(holds) ((holds) ? static_cast<void>(0) : throw licht::DecoderFailure())
+#define STB_IMAGE_STATIC
+#define STB_IMAGE_IMPLEMENTATION
+#include <stb_image.h>
 
 namespace licht {
 namespace {
@@ -111,8 +124,12 @@ std::unique_ptr<Texel, Freed> decode(Load load, std::span<const std::byte> bytes
     const stbi_io_callbacks callbacks = Source::callbacks();
     Size size;
     int stored_channels = 0;
-    std::unique_ptr<Texel, Freed> texels(
-        load(&callbacks, &source, &size.width, &size.height, &stored_channels, channels));
+    std::unique_ptr<Texel, Freed> texels;
+    try {
+        texels.reset(load(&callbacks, &source, &size.width, &size.height, &stored_channels, channels));
+    } catch (const DecoderFailure&) {
+        refuse(name, "broken image (its codes contradict each other)");
+    }
     if (source.readPastEnd()) refuse(name, "the image is truncated");
     if (!texels) refuse(name, fmt::format("broken image ({})", stbi_failure_reason()));
     return texels;
