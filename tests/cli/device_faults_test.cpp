@@ -63,7 +63,9 @@ bool nightly() {
 }
 
 Outcome runUnder(const ScratchFolder& folder, const Task& task, const Environment& faults) {
+    // Mesa's own layer above does not look at what its calls give back.
     Environment environment{{"LICHT_VALIDATION", "0"},
+                            {"NODEVICE_SELECT", "1"},
                             {"VK_LAYER_PATH", LICHT_FAULTS},
                             {"VK_INSTANCE_LAYERS", "VK_LAYER_LICHT_faults"}};
     environment.emplace_back("LICHT_FAULTS_DEPTH", nightly() ? "4" : task.depth);
@@ -124,7 +126,7 @@ class DeviceFaults : public testing::TestWithParam<std::tuple<Task, std::size_t>
 TEST_P(DeviceFaults, EveryCallMayFailOnce) {
     const auto& [task, part] = GetParam();
     const Words places = placesOf(task);
-    ASSERT_GE(places.size(), 5U);
+    ASSERT_GE(places.size(), 3U);
     std::map<std::string, int> failures;
     for (std::size_t i = part; i < places.size(); i += kParts) {
         SCOPED_TRACE(places[i]);
