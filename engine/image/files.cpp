@@ -27,8 +27,8 @@ struct DecoderFailure {};
 }  // namespace
 }  // namespace licht
 
-// The package's library ends the program where the codes of a damaged JPEG contradict each other; compiled here,
-// that is an error like others.
+// The package's library ends the program where the codes of a damaged JPEG contradict each other; compiled
+// here, that is an error like others.
 #define STBI_ASSERT(holds) ((holds) ? static_cast<void>(0) : throw licht::DecoderFailure())
 #define STB_IMAGE_STATIC
 #define STB_IMAGE_IMPLEMENTATION

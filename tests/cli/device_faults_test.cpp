@@ -7,6 +7,7 @@
 #include <iostream>
 #include <map>
 #include <sstream>
+#include <tuple>
 
 #include "licht/core/file.h"
 #include "licht/image/exr.h"

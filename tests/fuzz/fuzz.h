@@ -9,8 +9,8 @@
 
 namespace licht::fuzz {
 
-/// Reads these bytes as what the target is for; returns whether they were taken. That they are refused (InputError) is well; whatever else is
-/// thrown, a crash, a hang or a scene that is not sound, is a fault.
+/// Reads these bytes as what the target is for; returns whether they were taken. That they are refused
+/// (InputError) is well; whatever else is thrown, a crash, a hang or a scene that is not sound, is a fault.
 bool readInput(std::string_view bytes);
 std::vector<std::string> seeds();
 
