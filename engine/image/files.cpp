@@ -23,7 +23,9 @@
 
 namespace licht {
 namespace {
-struct DecoderFailure {};
+struct DecoderFailure : std::runtime_error {
+    DecoderFailure() : std::runtime_error("the codes of a picture contradict each other") {}
+};
 }  // namespace
 }  // namespace licht
 
