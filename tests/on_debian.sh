@@ -63,7 +63,8 @@ summary=
 inside() {
     start=$(date +%s)
     code=0
-    apart --mount-proc="$root/proc" chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LANG=C.UTF-8 \
+    # Tests open terminals of their own, which take /dev/pts.
+    apart --mount-proc="$root/proc" sh -c 'mount -t devpts -o newinstance,ptmxmode=0666 devpts "$0/dev/pts" && exec chroot "$0" "$@"' "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LANG=C.UTF-8 \
         ${http_proxy:+"http_proxy=$http_proxy"} ${https_proxy:+"https_proxy=$https_proxy"} \
         sh -c 'cd /root/licht && exec sh "$@"' sh "$@" || code=$?
     summary="$summary
