@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "licht/measure/metrics.h"
+
 namespace licht {
 namespace {
 
@@ -54,6 +56,26 @@ void developBeauty(Film& film, std::span<const std::byte> mean_high,
             film.variance.texels[3 * i + static_cast<std::size_t>(c)] =
                 static_cast<float>(std::max(static_cast<double>(squares[i][c]), 0.0) / (n * (n - 1.0)));
     }
+}
+
+void developFiltered(Film& film, std::span<const std::byte> filtered, std::span<const std::byte> error) {
+    const std::vector<vec4> picture = texels(filtered);
+    const std::vector<vec4> squares = texels(error);
+    film.unfiltered = film.mean;
+    double total = 0.0;
+    for (std::size_t i = 0; i < pixels(film); ++i) {
+        for (int c = 0; c < 4; ++c) film.mean.texels[4 * i + static_cast<std::size_t>(c)] = picture[i][c];
+        for (int c = 0; c < 3; ++c) {
+            film.variance.texels[3 * i + static_cast<std::size_t>(c)] = squares[i][c];
+            total += static_cast<double>(picture[i][c]);
+        }
+    }
+    const double mean = total / (3.0 * static_cast<double>(pixels(film)));
+    double bias = 0.0;
+    for (std::size_t i = 0; i < pixels(film); ++i)
+        bias += relativeSquare(static_cast<double>(squares[i].w),
+                               static_cast<double>(picture[i].x + picture[i].y + picture[i].z) / 3.0, mean);
+    film.filter_bias = std::sqrt(bias / static_cast<double>(pixels(film)));
 }
 
 void developLayers(Film& film, const LayerSet& wanted, std::uint32_t samples, const LayerTexels& images) {

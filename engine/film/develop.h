@@ -14,6 +14,10 @@ namespace licht {
 /// The four history images (RGBA32F) of `samples` samples -> mean and variance of the mean.
 void developBeauty(Film& film, std::span<const std::byte> mean_high, std::span<const std::byte> squares_high);
 
+/// What the filter made of the picture, whose mean is developed: RGBA; and its estimated squared error, RGB,
+/// with the squared bias in it, A.
+void developFiltered(Film& film, std::span<const std::byte> filtered, std::span<const std::byte> error);
+
 /// Images that passes drew layers into, by their names in the shaders: RGBA32F.
 using LayerTexels = std::map<std::string_view, std::vector<std::byte>>;
 

@@ -15,7 +15,11 @@ struct Film {
     std::uint32_t samples = 0;
     Image mean;      ///< RGBA: linear radiance, cd/m^2; alpha: share of samples that saw surface, sky or sun
     Image variance;  ///< RGB: estimated variance of the mean above (zero while samples < 2)
-    Image counts;    ///< samples per pixel, where they differ; `samples` is then their mean
+    /// Where the picture is filtered, `mean` is what the filter made and `variance` its estimated squared
+    /// error, bias included; this is the mean of the samples, RGBA, which is otherwise empty.
+    Image unfiltered;
+    double filter_bias = -1.0;  ///< relative, root of the mean square, estimated; negative: not filtered
+    Image counts;               ///< samples per pixel, where they differ; `samples` is then their mean
     std::vector<Image> orders;  ///< RGB of T^i Le each, when asked for; they sum to the mean
     Image lost;                 ///< RGB: what the clamp took, where it is on
 

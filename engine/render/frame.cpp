@@ -33,6 +33,7 @@ Frame::Frame(gpu::Device& device, const Programs& programs, const GpuScene& scen
             bound.gbuffer = to(programs.gbuffer);
             bound.accumulate = to(programs.accumulate);
             if (settings.layers.anyDrawn()) bound.layers = to(programs.layers);
+            if (programs.filter) bound.signals = to(programs.filter->signals);
             if (slot == 0) tonemap_.push_back(to(programs.tonemap));
             if (wavefront_)
                 wavefront_->bind(std::move(resources));
@@ -40,6 +41,11 @@ Frame::Frame(gpu::Device& device, const Programs& programs, const GpuScene& scen
                 bound.path = to(programs.path);
         }
     }
+    if (!programs.filter) return;
+    filter_.emplace(device, *programs.filter, images_);
+    const std::array<gpu::BoundResource, 2> shown{
+        {{"mean_high", &images_["filtered"]}, {"display_image", &images_["display_image"]}}};
+    tonemap_filtered_ = gpu::Bindings(device, programs.tonemap, shown);
 }
 
 void Frame::begin() {
@@ -55,6 +61,9 @@ void Frame::record(gpu::Commands& commands, std::size_t slot, const Slice& slice
     if (!slice.last) return;
     commands.dispatch(passName(PassId::accumulate), {programs_.accumulate, on.accumulate}, slice.push,
                       pixels());
+    if (programs_.filter)
+        commands.dispatch(passName(PassId::signals), {programs_.filter->signals, on.signals}, slice.push,
+                          pixels());
     if (drawsLayers(slice.push.count_before))
         commands.dispatch(passName(PassId::layers), {programs_.layers, on.layers}, slice.push, pixels());
 }
@@ -69,9 +78,13 @@ void Frame::followPaths(gpu::Commands& commands, std::size_t bound, const Sample
                       {images_.size().x, rows});
 }
 
-void Frame::recordDisplay(gpu::Commands& commands, const TonemapPush& push) const {
-    commands.dispatch(passName(PassId::tonemap), {programs_.tonemap, tonemap_[images_.parity()]}, push,
-                      pixels());
+void Frame::recordFilter(gpu::Commands& commands, const HalfCounts& counts, bool orthographic) const {
+    filter_->record(commands, counts, orthographic);
+}
+
+void Frame::recordDisplay(gpu::Commands& commands, const TonemapPush& push, bool filtered) const {
+    const gpu::Bindings& shown = filtered ? tonemap_filtered_ : tonemap_[images_.parity()];
+    commands.dispatch(passName(PassId::tonemap), {programs_.tonemap, shown}, push, pixels());
 }
 
 bool Frame::drawsLayers(std::uint32_t count_before) const {

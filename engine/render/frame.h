@@ -7,6 +7,7 @@
 #include "licht/render/images.h"
 #include "licht/render/in_flight.h"
 #include "licht/render/programs.h"
+#include "licht/render/spatial_filter.h"
 #include "licht/render/wavefront.h"
 #include "licht/settings/settings.h"
 #include "licht/shared/frame.h"
@@ -32,8 +33,10 @@ public:
     void begin();
     /// The passes of a slice.
     void record(gpu::Commands& commands, std::size_t slot, const Slice& slice) const;
-    /// From the mean so far to what a display shows.
-    void recordDisplay(gpu::Commands& commands, const TonemapPush& push) const;
+    /// Makes "filtered" and "filtered_error"; where settings keep signals.
+    void recordFilter(gpu::Commands& commands, const HalfCounts& counts, bool orthographic) const;
+    /// From the mean so far, or what the filter made of it, to what a display shows.
+    void recordDisplay(gpu::Commands& commands, const TonemapPush& push, bool filtered = false) const;
     /// Whether the frame behind that many samples draws the layers.
     [[nodiscard]] bool drawsLayers(std::uint32_t count_before) const;
 
@@ -43,7 +46,7 @@ public:
 
 private:
     struct Bound {
-        gpu::Bindings gbuffer, path, accumulate, layers;
+        gpu::Bindings gbuffer, path, accumulate, layers, signals;
     };
     void followPaths(gpu::Commands& commands, std::size_t bound, const SamplePush& push) const;
     [[nodiscard]] gpu::Threads pixels() const { return {images_.size().x, images_.size().y}; }
@@ -56,6 +59,8 @@ private:
     std::optional<Wavefront> wavefront_;
     std::vector<Bound> bound_;            ///< per slot and parity of the images
     std::vector<gpu::Bindings> tonemap_;  ///< per parity
+    std::optional<SpatialFilter> filter_;
+    gpu::Bindings tonemap_filtered_;
 };
 
 }  // namespace licht

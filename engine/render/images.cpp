@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cassert>
 
+#include "licht/render/tiles.h"
+#include "licht/shared/signals.h"
+
 namespace licht {
 namespace {
 
@@ -10,6 +13,10 @@ constexpr VkFormat kFloat4 = VK_FORMAT_R32G32B32A32_SFLOAT;
 
 bool wantsLayers(const RenderSettings& settings) {
     return settings.layers.anyDrawn();
+}
+
+bool wantsSignals(const RenderSettings& settings) {
+    return keepsSignals(settings);
 }
 
 constexpr auto kTable = std::to_array<ImageRow>({
@@ -21,6 +28,15 @@ constexpr auto kTable = std::to_array<ImageRow>({
     {"squares_high", kFloat4, Target::none, Lifetime::history, nullptr},
     {"squares_low", kFloat4, Target::none, Lifetime::history, nullptr},
     {"order_sums", kFloat4, Target::none, Lifetime::lent, nullptr},
+    {"sample_signals", kFloat4, Target::none, Lifetime::frame, wantsSignals, kSampleTiles},
+    {"signal_sums", kFloat4, Target::none, Lifetime::history, wantsSignals, kSumTiles},
+    {"filter_guide", kFloat4, Target::none, Lifetime::frame, wantsSignals, kGuideTiles},
+    {"filter_even", kFloat4, Target::none, Lifetime::frame, wantsSignals, kFilterTiles},
+    {"filter_odd", kFloat4, Target::none, Lifetime::frame, wantsSignals, kFilterTiles},
+    {"smooth_even", kFloat4, Target::none, Lifetime::frame, wantsSignals},
+    {"smooth_odd", kFloat4, Target::none, Lifetime::frame, wantsSignals},
+    {"filtered", kFloat4, Target::none, Lifetime::frame, wantsSignals},
+    {"filtered_error", kFloat4, Target::none, Lifetime::frame, wantsSignals},
     {"display_image", VK_FORMAT_R8G8B8A8_UNORM, Target::none, Lifetime::frame, nullptr},
 });
 
@@ -58,8 +74,8 @@ double bytesOfPicture(uvec2 size, const RenderSettings& settings, std::span<cons
     double bytes = kHostBytes;
     for (const ImageRow& row : table) {
         if (row.lifetime == Lifetime::lent || (row.wanted != nullptr && !row.wanted(settings))) continue;
-        bytes += gpu::texelBytes(row.format) * (row.lifetime == Lifetime::ping_pong ? 2.0 : 1.0);
-        if (row.wanted != nullptr) bytes += kHostBytesOfImage;
+        bytes += row.tiles * gpu::texelBytes(row.format) * (row.lifetime == Lifetime::ping_pong ? 2.0 : 1.0);
+        if (row.wanted != nullptr && row.tiles == 1) bytes += kHostBytesOfImage;
     }
     if (settings.adaptive) bytes += kBytesOfRounds;
     return bytes * size.x * size.y;
@@ -73,11 +89,14 @@ Images::Images(gpu::Device& device, uvec2 size, const RenderSettings& settings,
         entry.row = &row;
         entry.previous_name = "previous_" + std::string(row.name);
         if (row.lifetime == Lifetime::lent || (row.wanted != nullptr && !row.wanted(settings))) continue;
+        const uvec2 grid = row.tiles == 1 ? uvec2(1)
+                                          : tileGrid(device, size, row.tiles, "pictures for the filter",
+                                                     "a smaller picture or --denoise none");
         const bool pair = row.lifetime == Lifetime::ping_pong;
         pairs_ = pairs_ || pair;
         for (std::size_t i = 0; i < (pair ? 2U : 1U); ++i)
-            entry.images[i] =
-                gpu::Image(device, std::string(row.name), {size.x, size.y}, row.format, usageOf(row.target));
+            entry.images[i] = gpu::Image(device, std::string(row.name), {grid.x * size.x, grid.y * size.y},
+                                         row.format, usageOf(row.target));
     }
 }
 

@@ -28,6 +28,7 @@ struct ImageRow {
     Target target;
     Lifetime lifetime;
     bool (*wanted)(const RenderSettings&);  ///< null: always
+    std::uint32_t tiles = 1;                ///< pictures that stand side by side in it
 };
 
 /// All that a renderer can call for, with the images of layers, which follow from theirs.

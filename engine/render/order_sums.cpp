@@ -7,8 +7,8 @@
 #include <cmath>
 #include <cstring>
 
-#include "licht/core/error.h"
 #include "licht/gpu/commands.h"
+#include "licht/render/tiles.h"
 #include "licht/shared/frame.h"
 
 namespace licht {
@@ -26,27 +26,6 @@ std::uint32_t tilesOf(std::uint32_t orders, bool lost) {
     return orders + (lost ? 1U : 0U);
 }
 
-/// Tiles in a row, all of which the device's images must hold.
-std::uint32_t columnsOf(const gpu::Device& device, uvec2 size, std::uint32_t tiles) {
-    VkImageFormatProperties limits{};
-    gpu::check(vkGetPhysicalDeviceImageFormatProperties(device.physicalDevice(), kFormat, VK_IMAGE_TYPE_2D,
-                                                        VK_IMAGE_TILING_OPTIMAL, kUsage, 0, &limits),
-               "asking for the largest image");
-    const std::uint32_t columns = std::clamp(limits.maxExtent.width / size.x, 1U, tiles);
-    const std::uint64_t rows = (std::uint64_t{tiles} + columns - 1) / columns;
-    const std::uint64_t bytes = std::uint64_t{columns} * size.x * rows * size.y * gpu::texelBytes(kFormat);
-    if (size.x > limits.maxExtent.width || rows * size.y > limits.maxExtent.height ||
-        bytes > limits.maxResourceSize)
-        throw InputError(
-            fmt::format("{} layers of light by bounces at {}x{} take an image of {}x{} and {:.0f} MiB; that "
-                        "of '{}' ends at "
-                        "{}x{} and {:.0f} MiB: ask for fewer bounces or a smaller picture",
-                        tiles, size.x, size.y, std::uint64_t{columns} * size.x, rows * size.y,
-                        static_cast<double>(bytes) / 1048576.0, device.report().name, limits.maxExtent.width,
-                        limits.maxExtent.height, static_cast<double>(limits.maxResourceSize) / 1048576.0));
-    return columns;
-}
-
 }  // namespace
 
 OrderSums::OrderSums(gpu::Device& device, uvec2 size, std::uint32_t orders, bool lost)
@@ -54,15 +33,15 @@ OrderSums::OrderSums(gpu::Device& device, uvec2 size, std::uint32_t orders, bool
       size_(size),
       orders_(orders),
       lost_(lost),
-      columns_(columnsOf(device, size, tilesOf(orders, lost))),
+      grid_(tileGrid(device, size, tilesOf(orders, lost), "layers of light by bounces",
+                     "fewer bounces or a smaller picture")),
       sums_(tilesOf(orders, lost)) {
     // On the device, as sums, and as they are stored.
     constexpr double kBytes = sizeof(vec4) + 2.0 * sizeof(glm::dvec3);
     device.requireMemory(
         kBytes * static_cast<double>(sums_.size()) * size.x * size.y,
         fmt::format("{} layers of light by bounces at {}x{} take", sums_.size(), size.x, size.y));
-    const std::uint32_t rows = (tilesOf(orders, lost) + columns_ - 1) / columns_;
-    image_ = gpu::Image(device, "order_sums", {columns_ * size.x, rows * size.y}, kFormat, kUsage);
+    image_ = gpu::Image(device, "order_sums", {grid_.x * size.x, grid_.y * size.y}, kFormat, kUsage);
     restart();
 }
 
@@ -100,12 +79,12 @@ void OrderSums::fold(std::uint32_t samples, std::span<const std::uint32_t> count
     batch.samples = samples;
     batch.orders.resize(orders_);
     for (std::uint32_t tile = 0; tile < sums_.size(); ++tile) {
-        const std::size_t first_x = std::size_t{tile % columns_} * size_.x;
-        const std::size_t first_y = std::size_t{tile / columns_} * size_.y;
+        const std::size_t first_x = std::size_t{tile % grid_.x} * size_.x;
+        const std::size_t first_y = std::size_t{tile / grid_.x} * size_.y;
         glm::dvec3 total(0.0);
         double rays = 0.0;
         for (std::size_t y = 0; y < size_.y; ++y) {
-            const std::size_t row = ((first_y + y) * columns_ * size_.x + first_x) * sizeof(vec4);
+            const std::size_t row = ((first_y + y) * grid_.x * size_.x + first_x) * sizeof(vec4);
             for (std::size_t x = 0; x < size_.x; ++x) {
                 vec4 texel;
                 std::memcpy(&texel, &bytes[row + x * sizeof(vec4)], sizeof(texel));

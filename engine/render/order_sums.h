@@ -39,7 +39,7 @@ private:
     uvec2 size_;
     std::uint32_t orders_;
     bool lost_;
-    std::uint32_t columns_ = 1;
+    uvec2 grid_;  ///< columns and rows of tiles
     double samples_ = 0.0;
     std::vector<std::vector<glm::dvec3>>
         sums_;  ///< per tile and pixel: means, times the samples they count as

@@ -21,6 +21,13 @@ constexpr auto kPasses = std::to_array<PassInfo>({
     {PassId::path_finish, "path finish", true},
     {PassId::accumulate, "accumulate", false},
     {PassId::layers, "layers", false},
+    {PassId::signals, "signals", false},
+    {PassId::filter_guide, "filter guide", false},
+    {PassId::filter_begin, "filter begin", false},
+    {PassId::filter_smooth, "filter smooth", false},
+    {PassId::filter_level, "filter level", false},
+    {PassId::filter_bias, "filter bias", false},
+    {PassId::filter_end, "filter end", false},
     {PassId::tonemap, "tonemap", false},
 });
 

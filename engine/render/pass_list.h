@@ -22,6 +22,13 @@ enum class PassId {
     path_finish,
     accumulate,
     layers,
+    signals,
+    filter_guide,
+    filter_begin,
+    filter_smooth,
+    filter_level,
+    filter_bias,
+    filter_end,
     tonemap,
 };
 

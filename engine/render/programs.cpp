@@ -38,6 +38,7 @@ gpu::SpecConstants programConstants(const GpuScene& scene, const RenderSettings&
     gpu::SpecConstants constants = scene.constants();
     constants.merge(settingConstants(settings));
     constants[kConstantBlueBits] = settings.blue_bits;
+    constants[kConstantSignals] = keepsSignals(settings) ? 1U : 0U;
     constants[kConstantOrders] = settings.orders ? settings.bounces + 1U : 0U;
     if (settings.all_effects) {
         constants[kConstantTexturePages] = kTexturePages;
@@ -59,6 +60,7 @@ Programs::Programs(gpu::Device& device, const gpu::SpecConstants& constants, con
         with_paths[kConstantPathsPerThread] = paths_per_thread;
         path = gpu::Program::compute(device, "path", path_comp, with_paths);
     }
+    if (keepsSignals(settings)) filter.emplace(device, constants);
     if (settings.layers.anyDrawn()) layers = gpu::Program::compute(device, "layers", aov_comp, constants);
 }
 

@@ -3,6 +3,7 @@
 
 #include "licht/gpu/program.h"
 #include "licht/on_device/gpu_scene.h"
+#include "licht/render/spatial_filter.h"
 #include "licht/render/wavefront.h"
 #include "licht/settings/settings.h"
 
@@ -20,7 +21,8 @@ struct Programs {
     gpu::Program path;                           ///< one kernel for whole paths, or instead
     std::optional<WavefrontPrograms> wavefront;  ///< where settings.queues
     gpu::Program accumulate;
-    gpu::Program layers;  ///< where any are asked for
+    gpu::Program layers;                   ///< where any are asked for
+    std::optional<FilterPrograms> filter;  ///< where settings ask for it
     gpu::Program tonemap;
 };
 

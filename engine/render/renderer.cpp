@@ -74,6 +74,11 @@ struct Renderer::State {
     void resize(uvec2 size);
     void restart();
     void foldOrders();
+    /// Whether there are samples enough to tell light from noise; one alone is shown as it is.
+    [[nodiscard]] bool filters() const { return keepsSignals(settings) && samples > 1; }
+    /// Unless it is done for these samples.
+    void recordFilter(gpu::Commands& commands);
+    void readFiltered(Film& film);
     [[nodiscard]] FrameRecord frameRecord() const;
     [[nodiscard]] std::uint32_t rowsPerSlice() const;
     [[nodiscard]] std::vector<std::byte> read(std::string_view image) const {
@@ -91,10 +96,11 @@ struct Renderer::State {
     std::optional<OrderSums> order_sums;
     std::optional<AdaptiveRounds> rounds;
     std::optional<Frame> frame;
-    std::uint32_t samples = 0;         ///< in the history
-    std::uint32_t layer_samples = 0;   ///< in the layers
-    std::uint32_t folded_samples = 0;  ///< of the history, into order_sums
-    gpu::Image folded_mean;            ///< of all rounds, for the display
+    std::uint32_t samples = 0;           ///< in the history
+    std::uint32_t layer_samples = 0;     ///< in the layers
+    std::uint32_t filtered_samples = 0;  ///< of the history, that "filtered" is made of
+    std::uint32_t folded_samples = 0;    ///< of the history, into order_sums
+    gpu::Image folded_mean;              ///< of all rounds, for the display
     gpu::Bindings folded_bindings;
     ViewRecord view{};
     ViewRecord previous_view{};   ///< that the last sample saw
@@ -109,6 +115,7 @@ void Renderer::State::runEveryProgramOnce() {
     in_flight.runAside(device, frameRecord(), [&](gpu::Commands& commands, std::size_t slot) {
         frame->record(commands, slot, slice);
         frame->recordDisplay(commands, TonemapPush{});
+        if (keepsSignals(settings)) frame->recordFilter(commands, {1, 1}, false);
     });
     if (order_sums) order_sums->restart();
 }
@@ -126,6 +133,7 @@ void Renderer::State::resize(uvec2 size) {
                   order_sums ? &order_sums->image() : nullptr, rounds ? &rounds->records() : nullptr);
     samples = 0;
     layer_samples = 0;
+    filtered_samples = 0;
     folded_samples = 0;
     view = makeView(camera, size, gpu_scene.bounds());
     previous_view = view;
@@ -203,6 +211,22 @@ void Renderer::State::foldOrders() {
     folded_samples = samples;
 }
 
+void Renderer::State::recordFilter(gpu::Commands& commands) {
+    if (filtered_samples == samples) return;
+    filtered_samples = samples;
+    frame->recordFilter(commands, halvesOf(settings.first_sample, samples), view.orthographic != 0);
+}
+
+void Renderer::State::readFiltered(Film& film) {
+    gpu::Commands commands(device);
+    commands.begin();
+    recordFilter(commands);
+    commands.submit();
+    commands.wait();
+    addTimes(statistics.passes, commands.times());
+    developFiltered(film, read("filtered"), read("filtered_error"));
+}
+
 void Renderer::beginRound(std::uint32_t samples) {
     State& s = *state_;
     assert(s.rounds && samples > 0);
@@ -237,6 +261,7 @@ std::uint32_t Renderer::samples() const {
 void Renderer::State::restart() {
     samples = 0;
     layer_samples = 0;
+    filtered_samples = 0;
     folded_samples = 0;
     if (!order_sums && !rounds) return;
     in_flight.finish();
@@ -270,6 +295,7 @@ Film Renderer::readFilm() {
         film.size = s.settings.size;
         film.samples = s.samples;
         developBeauty(film, s.read("mean_high"), s.read("squares_high"));
+        if (s.filters()) s.readFiltered(film);
         if (s.order_sums) s.foldOrders();
     }
     if (s.order_sums) s.order_sums->develop(film);
@@ -287,7 +313,8 @@ void Renderer::recordDisplay(gpu::Commands& commands, Tonemap curve, float expos
     push.exposure = std::exp2(exposure_ev);
     push.curve = static_cast<uint>(curve);
     if (!s.rounds) {
-        s.frame->recordDisplay(commands, push);
+        if (s.filters()) s.recordFilter(commands);
+        s.frame->recordDisplay(commands, push, s.filters());
         return;
     }
     // The history holds the last round alone.

@@ -3,13 +3,21 @@
 #include <utility>
 
 namespace licht {
+namespace {
+
+// A filter says of its picture how wrong it is, as independent samples do.
+Sequence sequenceOf(const RenderSettings& settings) {
+    return settings.denoise == Denoise::none ? settings.sampler : Sequence::random;
+}
+
+}  // namespace
 
 Accumulation::Accumulation(Renderer& renderer, const RenderSettings& settings,
                            std::optional<double> wanted_error, Seconds seconds)
     : renderer_(renderer),
       seconds_(std::move(seconds)),
-      fresh_estimate_(settings.sampler, settings.first_sample),
-      fresh_schedule_(wanted_error, settings.sampler != Sequence::random),
+      fresh_estimate_(sequenceOf(settings), settings.first_sample),
+      fresh_schedule_(wanted_error, sequenceOf(settings) != Sequence::random),
       estimate_(fresh_estimate_),
       schedule_(fresh_schedule_),
       started_(seconds_()) {}

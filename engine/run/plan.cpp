@@ -1,5 +1,6 @@
 #include "licht/run/plan.h"
 
+#include "licht/core/error.h"
 #include "licht/gpu/lanes.h"
 #include "licht/run/queue_choice.h"
 
@@ -18,6 +19,8 @@ StopRules stopRules(const RunSettings& run) {
 }
 
 RunPlan planRun(gpu::Device& device, const Scene& scene, const Camera& camera, const RunSettings& run) {
+    if (run.render.adaptive && keepsSignals(run.render))
+        throw InputError("--denoise filters samples that are as many in every pixel: leave out --adaptive");
     RunPlan plan{run.render, stopRules(run), {}, {}, {}};
     plan.settings.blue_bits = blueBitsFor(run.samples);
     if (run.auto_bounces) {

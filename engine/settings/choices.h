@@ -93,6 +93,15 @@ constexpr auto namesOf(Energy) {
         {{"multiple", Energy::multiple}, {"single", Energy::single, "loses light where it is rough"}});
 }
 
+/// What is done about noise: nothing, or a filter over pixels that show one surface, whose share falls as the
+/// noise does.
+enum class Denoise : std::uint32_t { none, spatiotemporal };
+constexpr auto namesOf(Denoise) {
+    return std::to_array<NamedChoice<Denoise>>(
+        {{"none", Denoise::none},
+         {"spatiotemporal", Denoise::spatiotemporal, "neighbours that differ by no more than noise"}});
+}
+
 /// How linear values become those of a display.
 enum class Tonemap : std::uint32_t {
     none = kTonemapNone,

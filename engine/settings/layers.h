@@ -11,8 +11,8 @@
 
 namespace licht {
 
-enum class LayerId : std::uint32_t { albedo, normal, depth, motion, variance, sample_count, bounces };
-inline constexpr std::size_t kLayerCount = 7;
+enum class LayerId : std::uint32_t { albedo, normal, depth, motion, variance, sample_count, bounces, unfiltered };
+inline constexpr std::size_t kLayerCount = 8;
 
 /// How a layer is had from what the device keeps.
 enum class LayerRule {

@@ -27,6 +27,7 @@ struct RenderSettings {
     /// cd/m^2 that one indirect contribution may add to a pixel; 0: unlimited (unbiased).
     float clamp = 0.0F;
     bool regularise = false;  ///< widen glossy lobes behind a first scattering (biased)
+    Denoise denoise = Denoise::none;
     Layering layering = Layering::view;
     Energy energy = Energy::multiple;
     bool orders = false;    ///< keep a layer per order T^i Le
@@ -44,6 +45,12 @@ struct RenderSettings {
     /// Of a queue that a thread traces; more than one: in lanes that are refilled; 0: as suits the device.
     std::uint32_t rays_per_thread = 0;
 };
+
+/// Whether samples are kept apart by what filters work on: in two independent halves, and by the lobes of
+/// what the camera sees.
+constexpr bool keepsSignals(const RenderSettings& settings) {
+    return settings.denoise == Denoise::spatiotemporal;
+}
 
 /// What a run is asked for: the picture, when to stop, and what is left to the program to choose. The first
 /// limit that is reached stops a run; without any it draws kDefaultSamples.

@@ -183,7 +183,10 @@ std::vector<Setting> samplingRows() {
             &RenderSettings::clamp),
         flag({"--regularise", kFlag, biased, kUses, "Widen glossy lobes behind a path's first scattering",
               kConstantRegularise},
-             &RenderSettings::regularise)};
+             &RenderSettings::regularise),
+        choice({"--denoise", "HOW", biased, kForRun | kForView | kInFile,
+                "Filter the picture by {values}; its error estimate is that of the filtered picture"},
+               &RenderSettings::denoise)};
 }
 
 std::vector<Setting> expertRows() {

@@ -161,6 +161,7 @@ void addView(CLI::App& app, ViewOptions& options) {
     addDevice(app, options.device);
     addSettings(app, table, SettingGroup::transport, options.run);
     addSettings(app, table, SettingGroup::material, options.run);
+    addSettings(app, table, SettingGroup::biased, options.run);
     addValue(app, "--frames", "N", "Close after N frames (default: when the window is closed)",
              [&options](std::string_view option, std::string_view text) {
                  options.frames = parseCount(option, text, 1, std::numeric_limits<std::uint64_t>::max());

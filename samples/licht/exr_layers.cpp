@@ -41,6 +41,8 @@ std::vector<Image> picturesOf(const Film& film, const LayerInfo& layer) {
             return {countsOf(film)};
         case LayerId::bounces:
             return film.orders;
+        case LayerId::unfiltered:
+            return {film.unfiltered.texels.empty() ? film.mean : film.unfiltered};
         default:
             return {film.layer(layer.id)};
     }

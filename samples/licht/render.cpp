@@ -55,6 +55,7 @@ void describeRun(RenderReport& report, const gpu::Device& device, const Renderer
     report.first_image_seconds = result.first_image_seconds;
     report.render_seconds = result.render_seconds;
     report.error = result.error;
+    report.filter_bias = result.film.filter_bias;
     report.effects = renderer.effects().names();
     report.device_peak_bytes = device.devicePeakBytes();
     report.mean = pictureMean(result.film);

@@ -118,6 +118,7 @@ ordered_json biasJson(const RenderReport& report) {
                               {"standard_error", errorJson(measure.change)},
                               {"pilot_seconds", measure.seconds}};
     }
+    if (report.filter_bias >= 0.0) bias["denoise"] = {{"relative_bias", report.filter_bias}};
     return bias;
 }
 
@@ -130,6 +131,9 @@ std::string biasLine(const RenderReport& report) {
         line += fmt::format("{}regularise changed the light by {:+.3g} +- {:.2g} %", line.empty() ? "" : ", ",
                             100.0 * report.regularisation->change.value,
                             100.0 * report.regularisation->change.standard_error);
+    if (report.filter_bias >= 0.0)
+        line += fmt::format("{}denoise moved it by an estimated {:.2g} % beside the noise that it took",
+                            line.empty() ? "" : ", ", 100.0 * report.filter_bias);
     return line;
 }
 

@@ -3,7 +3,7 @@
 // One sample per pixel, by one kernel: from the G-buffer's hit along a whole path.
 #include "path/adaptive.glsl"
 #include "camera/gbuffer.glsl"
-#include "path/orders.glsl"
+#include "path/watch.glsl"
 #include "shared/constants.h"
 #include "shared/frame.h"
 #include "shared/index.h"
@@ -36,7 +36,7 @@ void main() {
         // On to the next path, where this one has ended.
         if (!begun || !p.alive) {
             if (begun) {
-                storeSample(pixel, p.radiance, covered);
+                if (!storeSample(pixel, p.radiance, covered)) beginSignals(pixel);
                 pixel.y += gl_WorkGroupSize.y;
             }
             if (left == 0u || pixel.y >= rows_end) break;
@@ -46,6 +46,7 @@ void main() {
                 pixel.y += gl_WorkGroupSize.y;
                 continue;
             }
+            beginSignals(pixel);
             Hit hit = gbufferHit(ivec2(pixel));
             p = beginPath(sampleAddress(pixel, push.sample_index), hit, gbufferWo(hit, ivec2(pixel), push.sample_index));
             covered = isOpaqueInPicture(hit, p.wo);

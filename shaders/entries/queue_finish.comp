@@ -12,5 +12,6 @@ void main() {
     uvec2 pixel = pixelOfThread();
     if (!insideSlice(pixel) || !isSampled(pixel, frame.view.size.x, push.sample_index)) return;
     Hit hit = gbufferHit(ivec2(pixel));
-    storeSample(pixel, unpackRadiance(pathOfThread()), isOpaqueInPicture(hit, gbufferWo(hit, ivec2(pixel), push.sample_index)));
+    bool opaque = isOpaqueInPicture(hit, gbufferWo(hit, ivec2(pixel), push.sample_index));
+    if (!storeSample(pixel, unpackRadiance(pathOfThread()), opaque)) beginSignals(pixel);
 }

@@ -13,6 +13,7 @@ void main() {
     uint path = pathOfThread();
     bool hits = false;
     if (insideSlice(pixel) && isSampled(pixel, frame.view.size.x, push.sample_index)) {
+        beginSignals(pixel);
         Hit hit = gbufferHit(ivec2(pixel));
         Path p = beginPath(sampleAddress(pixel, push.sample_index), hit, gbufferWo(hit, ivec2(pixel), push.sample_index));
         hits = hit.instance != kNoIndex;

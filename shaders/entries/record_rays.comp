@@ -21,8 +21,10 @@ layout(std430, binding = kFirstFreeBinding + 5u) writeonly buffer GlossyRays { R
 
 const RayRecord kNoRay = RayRecord(vec3(0.0), 0.0, vec3(0.0, 0.0, 1.0), -1.0);
 
-void onLight(uvec2 pixel, uint order, vec3 kept, vec3 lost) {}
+void onLight(uvec2 pixel, uint order, uint way, vec3 kept, vec3 lost) {}
 void onRays(uvec2 pixel, uint order, uint rays) {}
+void onFirstVertex(uvec2 pixel, Surface s, vec3 wo_local) {}
+void onFirstWay(uvec2 pixel, uint way, vec3 share_of_spread) {}
 
 RayRecord recordOf(RayQuery ray) { return RayRecord(ray.origin, ray.t_min, ray.direction, ray.t_max); }
 

@@ -4,6 +4,7 @@
 #define LICHT_PATH_ORDERS_GLSL
 #include "path/path.glsl"
 #include "path/store.glsl"
+#include "pure/tiles.glsl"
 #include "shared/bindings.h"
 #include "shared/constants.h"
 #include "shared/frame.h"
@@ -12,18 +13,16 @@ layout(constant_id = kConstantOrders) const uint kOrders = 0u;
 layout(rgba32f, binding = kBindingOrderSums) uniform image2D order_sums;  // RGB: light; A: rays
 
 void addToTile(uvec2 pixel, uint tile, vec4 value) {
-    uvec2 size = frame.view.size;
-    uint columns = uint(imageSize(order_sums).x) / size.x;
-    ivec2 at = ivec2(uvec2(tile % columns, tile / columns) * size + pixel);
+    ivec2 at = tilePlace(imageSize(order_sums), frame.view.size, tile, pixel);
     imageStore(order_sums, at, imageLoad(order_sums, at) + value);
 }
 
-void onLight(uvec2 pixel, uint order, vec3 kept, vec3 lost) {
+void noteOrder(uvec2 pixel, uint order, vec3 kept, vec3 lost) {
     if (kClamp && largest(lost) > 0.0 && allFinite(lost)) addToTile(pixel, kLostTile, vec4(lost, 0.0));
     if (order < kOrders && largest(kept) > 0.0 && allFinite(kept)) addToTile(pixel, order + (kClamp ? kLostTile + 1u : 0u), vec4(kept, 0.0));
 }
 
-void onRays(uvec2 pixel, uint order, uint rays) {
+void noteRays(uvec2 pixel, uint order, uint rays) {
     if (order < kOrders && rays > 0u) addToTile(pixel, order + (kClamp ? kLostTile + 1u : 0u), vec4(vec3(0.0), float(rays)));
 }
 

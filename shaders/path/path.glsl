@@ -14,6 +14,11 @@ layout(constant_id = kConstantDirect) const uint kDirect = kDirectMis;
 layout(constant_id = kConstantMisBalance) const bool kMisBalance = false;
 layout(constant_id = kConstantClamp) const bool kClamp = false;
 layout(constant_id = kConstantRegularise) const bool kRegularise = false;
+layout(constant_id = kConstantSignals) const bool kSignals = false;  // light is kept apart by the lobes of the first vertex
+
+// Ways by which light came to the first vertex.
+const uint kWayToLight = 0u;
+const uint kWayOnward = 1u;
 
 // What is counted beside the light; see CounterRecord.
 struct PathCounts {
@@ -43,6 +48,15 @@ float weightOfScattering(float scatter_pdf, float light_pdf) {
     return kDirect == kDirectArea ? 0.0 : misWeight(scatter_pdf, light_pdf);
 }
 
+// Of the light of a way, the share that the lobes which spread it evenly send on.
+vec3 shareOfSpread(vec3 spread_f, vec3 f) { return mix(vec3(0.0), spread_f / f, greaterThan(f, vec3(0.0))); }
+
+vec3 shareOfSpread(Bsdf b, vec3 wo, vec3 wi) {
+    vec3 spread_f;
+    vec3 f = evaluateBsdf(b, wo, wi, spread_f).f;
+    return shareOfSpread(spread_f, f);
+}
+
 // A path on its way.
 struct Path {
     SampleAddress address;  // of the sample that it is
@@ -62,6 +76,13 @@ Path beginPath(SampleAddress address, Hit hit, vec3 wo) {
     return Path(address, hit, wo, vec3(0.0), vec3(1.0), kNoShadingPoint, 0.0, 0u, kNoIndex, true);
 }
 
+// The including shader defines what else happens (path/watch.glsl): to light that a path found along the way on which it left its first vertex, and to rays
+// that looked for light of an order; to that vertex, and to how its lobes share the light of a way.
+void onLight(uvec2 pixel, uint order, uint way, vec3 kept, vec3 lost);
+void onRays(uvec2 pixel, uint order, uint rays);
+void onFirstVertex(uvec2 pixel, Surface s, vec3 wo_local);
+void onFirstWay(uvec2 pixel, uint way, vec3 share_of_spread);
+
 // Light that would arrive straight from a sampled light and scatter towards wo, one order of T applied to Le, with the ray that asks whether it does.
 // One sample of the lights: several at what the camera sees, and several candidates of which one is kept (Talbot, Cline, Egbert 2005, Importance Resampling
 // for Global Illumination), take as much more time as they take noise away, where there are many lamps.
@@ -72,33 +93,31 @@ ShadowRay directLight(Surface s, PackedShadingPoint at, vec3 wo_local, uint dime
     vec3 wi = normalize(light.direction);
     if (dot(wi, s.face_normal) <= 0.0) return kNoShadowRay;
     vec3 wi_local = localFromWorld(s.frame, wi);
-    LobeValue scattered = evaluateBsdf(s.bsdf, wo_local, wi_local);
+    vec3 spread_f;
+    LobeValue scattered = evaluateBsdf(s.bsdf, wo_local, wi_local, spread_f);
     if (largest(scattered.f) <= 0.0) return kNoShadowRay;
+    if (kSignals && p.bounce == 0u) onFirstWay(p.address.pixel, kWayToLight, shareOfSpread(spread_f, scattered.f));
     float weight = weightOfLightSample(light, scattered.pdf);
     vec3 arriving = scattered.f * light.radiance * (wi_local.z * weight / light.pdf);
     RayQuery query = shadowQuery(offsetOrigin(vertexOn(s), wi), light.direction, light.t_max, light.t_enough);
     return ShadowRay(sceneRay(query, p.address, kRayToLight + kRaysPerBounce * p.bounce), light.target, arriving, true);
 }
 
-// The including shader defines what else happens to light that a path found, and to the rays that looked for light of an order: nothing, or a note.
-void onLight(uvec2 pixel, uint order, vec3 kept, vec3 lost);
-void onRays(uvec2 pixel, uint order, uint rays);
-
 // Light found by a path that applied T `order` times: one term of the Neumann series.
-vec3 foundLight(uvec2 pixel, uint order, vec3 light) {
+vec3 foundLight(uvec2 pixel, uint order, uint way, vec3 light) {
     vec3 kept = light;
     if (kClamp && order > 1u) {
         float brightest = largest(light);
         if (brightest > frame.clamp_limit) kept *= frame.clamp_limit / brightest;
     }
-    onLight(pixel, order, kept, light - kept);
+    onLight(pixel, order, way, kept, light - kept);
     return kept;
 }
 
 // What a ray to a light brings, now that it is traced.
 vec3 arrivingLight(uvec2 pixel, uint order, ShadowRay shadow) {
     vec3 share = arrivingShare(shadow);
-    return largest(share) > 0.0 ? foundLight(pixel, order, share * shadow.light) : vec3(0.0);
+    return largest(share) > 0.0 ? foundLight(pixel, order, order == 1u ? kWayToLight : kWayOnward, share * shadow.light) : vec3(0.0);
 }
 
 // Weight of light that the path meets. Seen directly it counts whole.
@@ -119,7 +138,7 @@ void endInSky(inout Path p) {
     vec3 light = vec3(0.0);
     if (kEnvironment) light = p.throughput * weightOfMeeting(p, pdfOfSky(-p.wo)) * environmentRadiance(-p.wo);
     if (kSuns) light += p.throughput * metSuns(p);
-    if (kEnvironment || kSuns) p.radiance += foundLight(p.address.pixel, p.bounce, light);
+    if (kEnvironment || kSuns) p.radiance += foundLight(p.address.pixel, p.bounce, kWayOnward, light);
     p.alive = false;
 }
 
@@ -141,7 +160,7 @@ void extendPath(inout Path p, inout PathCounts counts, out ShadowRay to_light, o
     if (kRegularise && p.bounce > 0u) s.bsdf = regularised(s.bsdf);
     if (kUnlit && s.unlit && p.bounce > 0u) s.emission = vec3(0.0);
     if (kEmission || kUnlit) {
-        p.radiance += foundLight(p.address.pixel, p.bounce, p.throughput * weightOfMeeting(p, pdfOfSurface(s, p.from)) * s.emission);
+        p.radiance += foundLight(p.address.pixel, p.bounce, kWayOnward, p.throughput * weightOfMeeting(p, pdfOfSurface(s, p.from)) * s.emission);
     }
     p.alive = p.bounce < frame.bounces;
     if (!p.alive) return;
@@ -149,6 +168,7 @@ void extendPath(inout Path p, inout PathCounts counts, out ShadowRay to_light, o
     // Sample a light.
     uint dimension = kDimensionBounce + kDimensionsPerBounce * p.bounce;
     vec3 wo_local = localFromWorld(s.frame, p.wo);
+    if (kSignals && p.bounce == 0u) onFirstVertex(p.address.pixel, s, wo_local);
     PackedShadingPoint at = shadingPointAt(s, p.wo);
     if (kLightTriangles || kPunctualLights || kEnvironment) to_light = directLight(s, at, wo_local, dimension, p, counts);
     to_light.light *= p.throughput;
@@ -157,6 +177,7 @@ void extendPath(inout Path p, inout PathCounts counts, out ShadowRay to_light, o
     vec4 u = sample4(p.address, dimension + kDimensionScatter);
     BsdfSample scattered = sampleBsdf(s.bsdf, wo_local, u.z, u.xy);
     vec3 wi = worldFromLocal(s.frame, scattered.wi);
+    if (kSignals && p.bounce == 0u) onFirstWay(p.address.pixel, kWayOnward, shareOfSpread(s.bsdf, wo_local, scattered.wi));
     p.throughput *= scattered.weight;
     p.alive = scattered.valid && dot(wi, s.face_normal) > 0.0 && largest(p.throughput) > 0.0;  // below the true surface: absorbed
 

@@ -11,8 +11,15 @@
 layout(rgba32f, binding = kBindingRadiance) uniform writeonly image2D radiance_image;
 layout(std430, binding = kBindingCounters) buffer Counters { CounterRecord counters; };
 
+const uint kSeedOfSecondHalf = 0x9e3779b9u;  // golden ratio: far from seeds that people type
+
 SampleAddress sampleAddress(uvec2 pixel, uint frame_index) {
-    return SampleAddress(pixel, sampleIndexOf(pixel, frame.view.size.x, frame_index), frame.seed);
+    SampleAddress address = SampleAddress(pixel, sampleIndexOf(pixel, frame.view.size.x, frame_index), frame.seed);
+    if (!kSignals) return address;
+    // Two sequences in turn, so that the halves of a pixel's samples are independent.
+    address.seed ^= (address.index & 1u) * kSeedOfSecondHalf;
+    address.index >>= 1u;
+    return address;
 }
 
 // Beside the rays, which are counted where they are traced.
@@ -23,13 +30,15 @@ void storeCounts(PathCounts counts) {
     atomicAdd(counters.environment_tries, counts.environment_tries);
 }
 
-// A sample that is no number counts as black and is reported, never hidden.
-void storeSample(uvec2 pixel, vec3 radiance, bool covered) {
-    if (!allFinite(radiance)) {
+// A sample that is no number counts as black and is reported, never hidden. Whether it is one.
+bool storeSample(uvec2 pixel, vec3 radiance, bool covered) {
+    bool finite = allFinite(radiance);
+    if (!finite) {
         radiance = vec3(0.0);
         atomicAdd(counters.nonfinite_samples, 1u);
     }
     imageStore(radiance_image, ivec2(pixel), vec4(radiance, covered ? 1.0 : 0.0));
+    return finite;
 }
 
 #endif

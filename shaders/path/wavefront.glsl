@@ -4,8 +4,8 @@
 #define LICHT_PATH_WAVEFRONT_GLSL
 #include "camera/gbuffer.glsl"
 #include "path/balance.glsl"
-#include "path/orders.glsl"
 #include "path/state.glsl"
+#include "path/watch.glsl"
 #include "shared/bindings.h"
 #include "shared/path.h"
 

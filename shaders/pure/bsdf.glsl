@@ -79,9 +79,15 @@ LobeValue evaluateSpread(Bsdf b, vec3 wo, vec3 wi, vec3 h) {
     return spread;
 }
 
-LobeValue evaluateBsdf(Bsdf b, vec3 wo, vec3 wi) {
+// spread_f: the part of f that spreads light evenly; the rest mirrors it, more or less sharply.
+LobeValue evaluateBsdf(Bsdf b, vec3 wo, vec3 wi, out vec3 spread_f) {
+    spread_f = vec3(0.0);
     if (!sameSide(wo, wi)) return kNothing;
-    if (!kGlossy) return evaluateDiffuse(b.diffuse, wi, 1.0);
+    if (!kGlossy) {
+        LobeValue diffuse = evaluateDiffuse(b.diffuse, wi, 1.0);
+        spread_f = diffuse.f;
+        return diffuse;
+    }
     vec3 h = normalize(wo + wi);
     LobeValue specular = evaluateSpecular(b.specular, wo, wi, h), spread = evaluateSpread(b, wo, wi, h);
     float to_mirror = 1.0, to_diffuse = 1.0;
@@ -90,8 +96,30 @@ LobeValue evaluateBsdf(Bsdf b, vec3 wo, vec3 wi) {
         to_mirror = passClearcoatToMirror(albedo_o, albedo_i);
         to_diffuse = passClearcoatToDiffuse(b.clearcoat, albedo_o, albedo_i, meanAlbedoGgx(b.specular.alpha).grazing * b.specular.dielectric_f90);
     }
+    spread_f = to_diffuse * spread.f;
     LobeValue base = over(under(to_mirror, specular), under(to_diffuse, spread), shareOfSpecular(b, wo));
     return hasClearcoat(b.clearcoat) ? over(evaluateClearcoat(b.clearcoat, wo, wi), base, shareOfClearcoat(b, wo)) : base;
+}
+
+LobeValue evaluateBsdf(Bsdf b, vec3 wo, vec3 wi) {
+    vec3 spread_f;
+    return evaluateBsdf(b, wo, wi, spread_f);
+}
+
+// By which both parts of the light that a surface sends to wo are divided for filters, so that they vary as slowly as what arrives: what spreads evenly, and
+// what mirrors.
+struct Demodulation {
+    vec3 spread;
+    vec3 mirrored;
+};
+
+Demodulation demodulationOf(Bsdf b, vec3 wo) {
+    if (!kGlossy) return Demodulation(albedoDiffuse(b.diffuse), vec3(0.0));
+    float cos_o = dot(wo, b.specular.normal);
+    Demodulation d = Demodulation(albedoDiffuse(b.diffuse), albedoSpecular(b.specular, cos_o));
+    if (kEnergy == kEnergyMultiple) d.spread += albedoMultiple(b.specular, albedoGgx(cos_o, b.specular.alpha), meanAlbedoGgx(b.specular.alpha));
+    if (hasClearcoat(b.clearcoat)) d.mirrored += albedoClearcoat(b.clearcoat, wo);
+    return d;
 }
 
 // Of one of the lobes; may point below the surface.

@@ -54,7 +54,16 @@ LICHT_CONSTANT uint kBindingAovNormal = kBindingAovAlbedo + 1u;
 LICHT_CONSTANT uint kBindingAovMotion = kBindingAovNormal + 1u;
 LICHT_CONSTANT uint kBindingDisplay = kBindingAovMotion + 1u;
 LICHT_CONSTANT uint kBindingOrderSums = kBindingDisplay + 1u;
-LICHT_CONSTANT uint kBindingAdaptiveTiles = kBindingOrderSums + 1u;
+LICHT_CONSTANT uint kBindingSampleSignals = kBindingOrderSums + 1u;
+LICHT_CONSTANT uint kBindingSignalSums = kBindingSampleSignals + 1u;
+LICHT_CONSTANT uint kBindingFilterGuide = kBindingSignalSums + 1u;
+LICHT_CONSTANT uint kBindingFilterFrom = kBindingFilterGuide + 1u;
+LICHT_CONSTANT uint kBindingFilterTo = kBindingFilterFrom + 1u;
+LICHT_CONSTANT uint kBindingSmoothFrom = kBindingFilterTo + 1u;
+LICHT_CONSTANT uint kBindingSmoothTo = kBindingSmoothFrom + 1u;
+LICHT_CONSTANT uint kBindingFiltered = kBindingSmoothTo + 1u;
+LICHT_CONSTANT uint kBindingFilteredError = kBindingFiltered + 1u;
+LICHT_CONSTANT uint kBindingAdaptiveTiles = kBindingFilteredError + 1u;
 LICHT_CONSTANT uint kBindingCounters = kBindingAdaptiveTiles + 1u;
 
 // Queues.

@@ -212,8 +212,8 @@ TEST(Render, AllLayersUnderTheirNames) {
     for (int order = 0; order <= 8; ++order)
         for (const char* channel : {"B", "G", "R"})
             names.push_back("bounces." + std::to_string(order) + "." + channel);
-    names.insert(names.end(),
-                 {"motion.X", "motion.Y", "sampleCount", "variance.B", "variance.G", "variance.R"});
+    names.insert(names.end(), {"motion.X", "motion.Y", "sampleCount", "unfiltered.B", "unfiltered.G",
+                               "unfiltered.R", "variance.B", "variance.G", "variance.R"});
     EXPECT_EQ(channelNames(picture), names);
     for (const float count : picture.find("sampleCount")->values) EXPECT_EQ(count, 3.0F);
     for (const char* channel : {"variance.R", "albedo.G"})

@@ -21,6 +21,7 @@
 #include "licht/shared/material.h"
 #include "licht/shared/path.h"
 #include "licht/shared/ray_records.h"
+#include "licht/shared/signals.h"
 #include "licht/spirv/records_comp.h"
 
 namespace licht {
@@ -119,6 +120,9 @@ std::map<std::string, Record> hostRecords() {
                      LICHT_MEMBER(FrameRecord, environment_peak), LICHT_MEMBER(FrameRecord, first_sun),
                      LICHT_MEMBER(FrameRecord, suns), LICHT_MEMBER(FrameRecord, environment_turn),
                      LICHT_MEMBER(FrameRecord, reserved0)),
+        LICHT_RECORD(FilterPush, LICHT_MEMBER(FilterPush, size), LICHT_MEMBER(FilterPush, orthographic),
+                     LICHT_MEMBER(FilterPush, stride), LICHT_MEMBER(FilterPush, count_a),
+                     LICHT_MEMBER(FilterPush, count_b)),
         LICHT_RECORD(SamplePush, LICHT_MEMBER(SamplePush, sample_index),
                      LICHT_MEMBER(SamplePush, count_before), LICHT_MEMBER(SamplePush, first_row),
                      LICHT_MEMBER(SamplePush, row_count)),

@@ -1,0 +1,36 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Sums over samples of what filters work on, in two halves.
+#include "pure/tiles.glsl"
+#include "shared/bindings.h"
+#include "shared/frame.h"
+#include "shared/signals.h"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(push_constant) uniform Push { SamplePush push; };
+layout(std430, binding = kBindingFrame) readonly buffer FrameBlock { FrameRecord frame; };
+layout(rgba32f, binding = kBindingRadiance) uniform readonly image2D radiance_image;
+layout(rgba32f, binding = kBindingSampleSignals) uniform readonly image2D sample_signals;
+layout(rgba32f, binding = kBindingSignalSums) uniform image2D signal_sums;
+
+vec4 sampled(uvec2 pixel, uint tile) { return imageLoad(sample_signals, tilePlace(imageSize(sample_signals), frame.view.size, tile, pixel)); }
+
+void add(uvec2 pixel, uint tile, vec4 value, bool fresh) {
+    ivec2 at = tilePlace(imageSize(signal_sums), frame.view.size, tile, pixel);
+    imageStore(signal_sums, at, value + mix(imageLoad(signal_sums, at), vec4(0.0), bvec4(fresh)));  // selected, not branched on: see accumulate.comp
+}
+
+void main() {
+    uvec2 pixel = gl_GlobalInvocationID.xy;
+    if (any(greaterThanEqual(pixel, frame.view.size))) return;
+    vec4 spread = sampled(pixel, kSampleSpread), mirrored = sampled(pixel, kSampleMirrored);
+    vec4 seen = vec4(imageLoad(radiance_image, ivec2(pixel)).rgb - spread.rgb - mirrored.rgb, 0.0);
+    uint half_ = push.sample_index % kHalves;
+    bool fresh_half = push.count_before < kHalves, fresh = push.count_before == 0u;
+    add(pixel, kSumSpread + half_, spread, fresh_half);
+    add(pixel, kSumMirrored + half_, mirrored, fresh_half);
+    add(pixel, kSumSeen + half_, seen, fresh_half);
+    add(pixel, kSumFirstSpread, sampled(pixel, kFirstSpread), fresh);
+    add(pixel, kSumFirstMirrored, sampled(pixel, kFirstMirrored), fresh);
+    add(pixel, kSumFirstPlace, sampled(pixel, kFirstPlace), fresh);
+}

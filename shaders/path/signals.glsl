@@ -1,0 +1,51 @@
+// What filters work on, of one sample of each pixel: the light that the surface before the camera sent on by the lobes that spread it evenly and by those that
+// mirror it, and that surface. A pixel is written by the one path that is followed for it.
+#ifndef LICHT_PATH_SIGNALS_GLSL
+#define LICHT_PATH_SIGNALS_GLSL
+#include "path/path.glsl"
+#include "path/store.glsl"
+#include "pure/tiles.glsl"
+#include "shared/bindings.h"
+#include "shared/frame.h"
+#include "shared/signals.h"
+
+layout(rgba32f, binding = kBindingSampleSignals) uniform image2D sample_signals;
+
+ivec2 signalPlace(uvec2 pixel, uint tile) { return tilePlace(imageSize(sample_signals), frame.view.size, tile, pixel); }
+
+void setSignal(uvec2 pixel, uint tile, vec4 value) { imageStore(sample_signals, signalPlace(pixel, tile), value); }
+
+void addToSignal(uvec2 pixel, uint tile, vec3 light) {
+    ivec2 at = signalPlace(pixel, tile);
+    imageStore(sample_signals, at, imageLoad(sample_signals, at) + vec4(light, 0.0));
+}
+
+// Before a path begins: nothing has been found, no surface met.
+void beginSignals(uvec2 pixel) {
+    if (!kSignals) return;
+    setSignal(pixel, kSampleSpread, vec4(0.0));
+    setSignal(pixel, kSampleMirrored, vec4(0.0));
+    setSignal(pixel, kFirstSpread, vec4(0.0));
+    setSignal(pixel, kFirstMirrored, vec4(0.0));
+    setSignal(pixel, kFirstPlace, vec4(0.0));
+}
+
+void noteFirstVertex(uvec2 pixel, Surface s, vec3 wo_local) {
+    Demodulation d = demodulationOf(s.bsdf, wo_local);
+    setSignal(pixel, kFirstSpread, vec4(d.spread, 1.0));
+    setSignal(pixel, kFirstMirrored, vec4(d.mirrored, s.bsdf.specular.alpha));
+    setSignal(pixel, kFirstPlace, vec4(s.frame.normal, -dot(frame.view.back, s.position - frame.view.eye)));
+}
+
+void noteFirstWay(uvec2 pixel, uint way, vec3 share_of_spread) {
+    setSignal(pixel, way == kWayToLight ? kShareToLight : kShareOnward, vec4(share_of_spread, 0.0));
+}
+
+void noteSignal(uvec2 pixel, uint way, vec3 light) {
+    if (!allFinite(light)) return;
+    vec3 share = imageLoad(sample_signals, signalPlace(pixel, way == kWayToLight ? kShareToLight : kShareOnward)).rgb;
+    addToSignal(pixel, kSampleSpread, share * light);
+    if (kGlossy) addToSignal(pixel, kSampleMirrored, (1.0 - share) * light);
+}
+
+#endif
