@@ -1,6 +1,7 @@
 #include "licht/render/frame.h"
 
 #include <algorithm>
+#include <array>
 
 #include "licht/render/gbuffer.h"
 #include "licht/render/pass_list.h"

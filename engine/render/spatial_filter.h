@@ -2,7 +2,7 @@
 // A filter over pixels that show the same surface. The light of two independent halves of the samples is
 // filtered, each with the weights of the other; from what both say follow the filter's bias, how much of it
 // the picture takes, and the picture's error. shaders/filter/filter.glsl names the papers.
-#include <vector>
+#include <array>
 
 #include "licht/gpu/commands.h"
 #include "licht/render/images.h"

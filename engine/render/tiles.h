@@ -1,5 +1,6 @@
 #pragma once
 // Pictures of one size side by side in one image, as shaders/pure/tiles.glsl finds them.
+#include <cstdint>
 #include <string_view>
 
 #include "licht/core/math.h"

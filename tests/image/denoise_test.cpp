@@ -3,6 +3,8 @@
 
 #include <cmath>
 #include <cstring>
+#include <string>
+#include <utility>
 
 #include "licht/film/error_estimate.h"
 #include "licht/measure/metrics.h"
