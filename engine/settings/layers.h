@@ -11,7 +11,16 @@
 
 namespace licht {
 
-enum class LayerId : std::uint32_t { albedo, normal, depth, motion, variance, sample_count, bounces, unfiltered };
+enum class LayerId : std::uint32_t {
+    albedo,
+    normal,
+    depth,
+    motion,
+    variance,
+    sample_count,
+    bounces,
+    unfiltered
+};
 inline constexpr std::size_t kLayerCount = 8;
 
 /// How a layer is had from what the device keeps.

@@ -11,7 +11,8 @@ float countOfBoth() { return push.count_a + push.count_b; }
 // Of a value per sample, whose halves have these means: its variance, by one degree of freedom. The mean of n samples has 1/n of it.
 float varianceBetween(vec3 a, vec3 b) { return meanSquare(a - b) * push.count_a * push.count_b / countOfBoth(); }
 
-// By which a pixel's light of a kind is divided. Light never comes from where this is zero, so the floor only keeps zero over zero away.
+// By which a pixel's light of a kind is divided, and multiplied again. The floor keeps zero over zero away, and is for thin films, which mirror where what lies
+// under them does not.
 vec3 demodulation(uint kind, ivec2 pixel) {
     const float kFloor = 1e-4;
     return max(tileTexel(signal_sums, kSumFirstSpread + kind, pixel).rgb / countOfBoth(), vec3(kFloor));

@@ -7,29 +7,29 @@
 LICHT_SHARED_BEGIN
 
 // Of one sample, in sample_signals.
-LICHT_CONSTANT uint kSampleSpread = 0u;                      // light, spread evenly
-LICHT_CONSTANT uint kSampleMirrored = kSampleSpread + 1u;    // light, mirrored
-LICHT_CONSTANT uint kShareToLight = kSampleMirrored + 1u;    // of the light of the ray to a light: what is spread evenly
-LICHT_CONSTANT uint kShareOnward = kShareToLight + 1u;       // of the light along the path
-LICHT_CONSTANT uint kFirstSpread = kShareOnward + 1u;        // RGB: by what light spread evenly is demodulated; A: 1 where a surface is
-LICHT_CONSTANT uint kFirstMirrored = kFirstSpread + 1u;      // RGB: and light mirrored; A: GGX width
-LICHT_CONSTANT uint kFirstPlace = kFirstMirrored + 1u;       // XYZ: normal; W: depth along the axis
+LICHT_CONSTANT uint kSampleSpread = 0u;                    // light, spread evenly
+LICHT_CONSTANT uint kSampleMirrored = kSampleSpread + 1u;  // light, mirrored
+LICHT_CONSTANT uint kShareToLight = kSampleMirrored + 1u;  // of the light of the ray to a light: what is spread evenly
+LICHT_CONSTANT uint kShareOnward = kShareToLight + 1u;     // of the light along the path
+LICHT_CONSTANT uint kFirstSpread = kShareOnward + 1u;      // RGB: by what light spread evenly is demodulated; A: 1 where a surface is
+LICHT_CONSTANT uint kFirstMirrored = kFirstSpread + 1u;    // RGB: and light mirrored; A: GGX width
+LICHT_CONSTANT uint kFirstPlace = kFirstMirrored + 1u;     // XYZ: normal; W: depth along the axis
 LICHT_CONSTANT uint kSampleTiles = kFirstPlace + 1u;
 
 // Sums over samples, in signal_sums. Samples fall into two halves that know nothing of each other: the second one's tile stands behind the first one's.
 LICHT_CONSTANT uint kHalves = 2u;
 LICHT_CONSTANT uint kSumSpread = 0u;
 LICHT_CONSTANT uint kSumMirrored = kSumSpread + kHalves;
-LICHT_CONSTANT uint kSumSeen = kSumMirrored + kHalves;         // light that comes straight to the camera
-LICHT_CONSTANT uint kSumFirstSpread = kSumSeen + kHalves;      // of both halves from here on
+LICHT_CONSTANT uint kSumSeen = kSumMirrored + kHalves;     // light that comes straight to the camera
+LICHT_CONSTANT uint kSumFirstSpread = kSumSeen + kHalves;  // of both halves from here on
 LICHT_CONSTANT uint kSumFirstMirrored = kSumFirstSpread + 1u;
 LICHT_CONSTANT uint kSumFirstPlace = kSumFirstMirrored + 1u;
 LICHT_CONSTANT uint kSumTiles = kSumFirstPlace + 1u;
 
 // What is filtered, in filter_even and filter_odd. RGB: demodulated light; A: its variance, the mean of the channels'.
-LICHT_CONSTANT uint kFilterSpread = 0u;                             // a half behind the other
+LICHT_CONSTANT uint kFilterSpread = 0u;  // a half behind the other
 LICHT_CONSTANT uint kFilterMirrored = kFilterSpread + kHalves;
-LICHT_CONSTANT uint kFilterCentre = kFilterMirrored + kHalves;      // XY: the share of a pixel's own light in both kinds; ZW: the variances of a sample
+LICHT_CONSTANT uint kFilterCentre = kFilterMirrored + kHalves;  // XY: the share of a pixel's own light in both kinds; ZW: the variances of a sample
 LICHT_CONSTANT uint kFilterTiles = kFilterCentre + 1u;
 
 // What tells surfaces apart, in filter_guide.
@@ -39,10 +39,10 @@ LICHT_CONSTANT uint kGuideTiles = 2u;
 
 // Push constants of the filter's passes.
 struct FilterPush {
-    uvec2 size;          // of the picture
-    uint orthographic;   // 1: so is the camera
-    uint stride;         // between taps, in pixels
-    float count_a;       // samples of the halves, at least one each
+    uvec2 size;         // of the picture
+    uint orthographic;  // 1: so is the camera
+    uint stride;        // between taps, in pixels
+    float count_a;      // samples of the halves, at least one each
     float count_b;
 };
 
