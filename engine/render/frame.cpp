@@ -35,6 +35,7 @@ Frame::Frame(gpu::Device& device, const Programs& programs, const GpuScene& scen
             bound.accumulate = to(programs.accumulate);
             if (settings.layers.anyDrawn()) bound.layers = to(programs.layers);
             if (programs.filter) bound.signals = to(programs.filter->signals);
+            if (programs.history) bound.reproject = to(programs.history->reproject);
             if (slot == 0) tonemap_.push_back(to(programs.tonemap));
             if (wavefront_)
                 wavefront_->bind(std::move(resources));
@@ -43,7 +44,9 @@ Frame::Frame(gpu::Device& device, const Programs& programs, const GpuScene& scen
         }
     }
     if (!programs.filter) return;
-    filter_.emplace(device, *programs.filter, images_);
+    filter_.emplace(device, *programs.filter, images_, settings.denoise == Denoise::spatiotemporal);
+    if (programs.history)
+        fold_ = gpu::Bindings(device, programs.history->fold, images_.resources(images_.parity()));
     const std::array<gpu::BoundResource, 2> shown{
         {{"mean_high", &images_["filtered"]}, {"display_image", &images_["display_image"]}}};
     tonemap_filtered_ = gpu::Bindings(device, programs.tonemap, shown);
@@ -67,6 +70,20 @@ void Frame::record(gpu::Commands& commands, std::size_t slot, const Slice& slice
                           pixels());
     if (drawsLayers(slice.push.count_before))
         commands.dispatch(passName(PassId::layers), {programs_.layers, on.layers}, slice.push, pixels());
+}
+
+void Frame::recordFold(gpu::Commands& commands, const HalfCounts& counts) const {
+    FilterPush push{};
+    push.size = images_.size();
+    push.count_a = static_cast<float>(counts.a);
+    push.count_b = static_cast<float>(counts.b);
+    commands.dispatch(passName(PassId::history_fold), {programs_.history->fold, fold_}, push, pixels());
+}
+
+void Frame::recordReproject(gpu::Commands& commands, std::size_t slot, const ReprojectPush& push) const {
+    const Bound& on = bound_[slot * images_.parities() + images_.parity()];
+    commands.dispatch(passName(PassId::history_reproject), {programs_.history->reproject, on.reproject}, push,
+                      pixels());
 }
 
 void Frame::followPaths(gpu::Commands& commands, std::size_t bound, const SamplePush& push) const {

@@ -33,6 +33,11 @@ public:
     void begin();
     /// The passes of a slice.
     void record(gpu::Commands& commands, std::size_t slot, const Slice& slice) const;
+    /// Before the first pass of a new view's first sample: keeps what the view before has told, by so many
+    /// samples; where settings keep a history.
+    void recordFold(gpu::Commands& commands, const HalfCounts& counts) const;
+    /// Behind the passes of a new view's first sample: brings that to what it shows.
+    void recordReproject(gpu::Commands& commands, std::size_t slot, const ReprojectPush& push) const;
     /// Makes "filtered" and "filtered_error"; where settings keep signals.
     void recordFilter(gpu::Commands& commands, const HalfCounts& counts, bool orthographic) const;
     /// From the mean so far, or what the filter made of it, to what a display shows.
@@ -46,7 +51,7 @@ public:
 
 private:
     struct Bound {
-        gpu::Bindings gbuffer, path, accumulate, layers, signals;
+        gpu::Bindings gbuffer, path, accumulate, layers, signals, reproject;
     };
     void followPaths(gpu::Commands& commands, std::size_t bound, const SamplePush& push) const;
     [[nodiscard]] gpu::Threads pixels() const { return {images_.size().x, images_.size().y}; }
@@ -61,6 +66,7 @@ private:
     std::vector<gpu::Bindings> tonemap_;  ///< per parity
     std::optional<SpatialFilter> filter_;
     gpu::Bindings tonemap_filtered_;
+    gpu::Bindings fold_;
 };
 
 }  // namespace licht

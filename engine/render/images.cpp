@@ -19,6 +19,10 @@ bool wantsSignals(const RenderSettings& settings) {
     return keepsSignals(settings);
 }
 
+bool wantsHistory(const RenderSettings& settings) {
+    return keepsHistory(settings);
+}
+
 constexpr auto kTable = std::to_array<ImageRow>({
     {"gbuffer", VK_FORMAT_R32G32B32A32_UINT, Target::color, Lifetime::frame, nullptr},
     {"depth", VK_FORMAT_D32_SFLOAT, Target::depth, Lifetime::frame, nullptr},
@@ -30,6 +34,8 @@ constexpr auto kTable = std::to_array<ImageRow>({
     {"order_sums", kFloat4, Target::none, Lifetime::lent, nullptr},
     {"sample_signals", kFloat4, Target::none, Lifetime::frame, wantsSignals, kSampleTiles},
     {"signal_sums", kFloat4, Target::none, Lifetime::history, wantsSignals, kSumTiles},
+    {"history", kFloat4, Target::none, Lifetime::history, wantsHistory, kHistoryTiles},
+    {"prior", kFloat4, Target::none, Lifetime::history, wantsHistory, kPriorTiles},
     {"filter_guide", kFloat4, Target::none, Lifetime::frame, wantsSignals, kGuideTiles},
     {"filter_even", kFloat4, Target::none, Lifetime::frame, wantsSignals, kFilterTiles},
     {"filter_odd", kFloat4, Target::none, Lifetime::frame, wantsSignals, kFilterTiles},

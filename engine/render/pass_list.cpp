@@ -22,6 +22,8 @@ constexpr auto kPasses = std::to_array<PassInfo>({
     {PassId::accumulate, "accumulate", false},
     {PassId::layers, "layers", false},
     {PassId::signals, "signals", false},
+    {PassId::history_fold, "history fold", false},
+    {PassId::history_reproject, "history reproject", false},
     {PassId::filter_guide, "filter guide", false},
     {PassId::filter_begin, "filter begin", false},
     {PassId::filter_smooth, "filter smooth", false},

@@ -23,6 +23,8 @@ enum class PassId {
     accumulate,
     layers,
     signals,
+    history_fold,
+    history_reproject,
     filter_guide,
     filter_begin,
     filter_smooth,

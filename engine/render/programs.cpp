@@ -39,6 +39,8 @@ gpu::SpecConstants programConstants(const GpuScene& scene, const RenderSettings&
     constants.merge(settingConstants(settings));
     constants[kConstantBlueBits] = settings.blue_bits;
     constants[kConstantSignals] = keepsSignals(settings) ? 1U : 0U;
+    constants[kConstantReprojects] = keepsHistory(settings) ? 1U : 0U;
+    constants[kConstantSpatial] = settings.denoise == Denoise::spatiotemporal ? 1U : 0U;
     constants[kConstantOrders] = settings.orders ? settings.bounces + 1U : 0U;
     if (settings.all_effects) {
         constants[kConstantTexturePages] = kTexturePages;
@@ -61,6 +63,7 @@ Programs::Programs(gpu::Device& device, const gpu::SpecConstants& constants, con
         path = gpu::Program::compute(device, "path", path_comp, with_paths);
     }
     if (keepsSignals(settings)) filter.emplace(device, constants);
+    if (keepsHistory(settings)) history.emplace(device, constants);
     if (settings.layers.anyDrawn()) layers = gpu::Program::compute(device, "layers", aov_comp, constants);
 }
 

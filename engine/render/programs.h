@@ -3,6 +3,7 @@
 
 #include "licht/gpu/program.h"
 #include "licht/on_device/gpu_scene.h"
+#include "licht/render/reprojection.h"
 #include "licht/render/spatial_filter.h"
 #include "licht/render/wavefront.h"
 #include "licht/settings/settings.h"
@@ -23,6 +24,7 @@ struct Programs {
     gpu::Program accumulate;
     gpu::Program layers;                   ///< where any are asked for
     std::optional<FilterPrograms> filter;  ///< where settings ask for it
+    std::optional<HistoryPrograms> history;
     gpu::Program tonemap;
 };
 

@@ -72,10 +72,18 @@ struct Renderer::State {
 
     void runEveryProgramOnce();
     void resize(uvec2 size);
+    /// Nothing that was seen counts any longer.
     void restart();
+    /// What was seen counts for what is seen next.
+    void changeView();
+    void forgetSamples();
+    /// What a new view's first sample does beside the others: before its passes, and behind them.
+    void recordBefore(gpu::Commands& commands);
+    void recordBehind(gpu::Commands& commands, std::size_t slot, std::uint32_t sample_index);
     void foldOrders();
-    /// Whether there are samples enough to tell light from noise; one alone is shown as it is.
-    [[nodiscard]] bool filters() const { return keepsSignals(settings) && samples > 1; }
+    [[nodiscard]] bool filters() const { return keepsSignals(settings); }
+    /// Index of the first sample of the present view.
+    [[nodiscard]] std::uint32_t firstSample() const { return settings.first_sample + earlier_samples; }
     /// Unless it is done for these samples.
     void recordFilter(gpu::Commands& commands);
     void readFiltered(Film& film);
@@ -100,6 +108,9 @@ struct Renderer::State {
     std::uint32_t layer_samples = 0;     ///< in the layers
     std::uint32_t filtered_samples = 0;  ///< of the history, that "filtered" is made of
     std::uint32_t folded_samples = 0;    ///< of the history, into order_sums
+    std::uint32_t earlier_samples = 0;   ///< of views before this one that it is told of
+    bool fresh = true;                   ///< there is none
+    std::optional<HalfCounts> untold;    ///< samples of the view before that "history" does not hold yet
     gpu::Image folded_mean;              ///< of all rounds, for the display
     gpu::Bindings folded_bindings;
     ViewRecord view{};
@@ -115,6 +126,10 @@ void Renderer::State::runEveryProgramOnce() {
     in_flight.runAside(device, frameRecord(), [&](gpu::Commands& commands, std::size_t slot) {
         frame->record(commands, slot, slice);
         frame->recordDisplay(commands, TonemapPush{});
+        if (keepsHistory(settings)) {
+            frame->recordFold(commands, {1, 1});
+            frame->recordReproject(commands, slot, {0, 1});
+        }
         if (keepsSignals(settings)) frame->recordFilter(commands, {1, 1}, false);
     });
     if (order_sums) order_sums->restart();
@@ -131,10 +146,7 @@ void Renderer::State::resize(uvec2 size) {
     if (settings.adaptive) rounds.emplace(device, size, settings.first_sample);
     frame.emplace(device, *programs, gpu_scene, settings, in_flight,
                   order_sums ? &order_sums->image() : nullptr, rounds ? &rounds->records() : nullptr);
-    samples = 0;
-    layer_samples = 0;
-    filtered_samples = 0;
-    folded_samples = 0;
+    restart();
     view = makeView(camera, size, gpu_scene.bounds());
     previous_view = view;
 }
@@ -180,7 +192,7 @@ void Renderer::renderSample() {
     State& s = *state_;
     Slice slice;
     SamplePush& push = slice.push;
-    push.sample_index = s.settings.first_sample + (s.rounds ? s.rounds->firstFrame() : 0U) + s.samples;
+    push.sample_index = s.firstSample() + (s.rounds ? s.rounds->firstFrame() : 0U) + s.samples;
     if (push.sample_index < s.settings.first_sample || s.samples == 0xffffffffU)
         throw InputError("the samples of a pixel are numbered by 32 bits, and all of them are used");
     push.count_before = s.samples;
@@ -192,7 +204,9 @@ void Renderer::renderSample() {
         slice.first = push.first_row == 0;
         slice.last = push.first_row + push.row_count == s.settings.size.y;
         const std::size_t slot = s.in_flight.begin(record);
+        if (slice.first) s.recordBefore(s.in_flight.commands(slot));
         s.frame->record(s.in_flight.commands(slot), slot, slice);
+        if (slice.last) s.recordBehind(s.in_flight.commands(slot), slot, push.sample_index);
         s.in_flight.submit(slot);
     }
     if (s.frame->drawsLayers(push.count_before)) ++s.layer_samples;
@@ -205,6 +219,17 @@ void Renderer::renderSample() {
     }
 }
 
+void Renderer::State::recordBefore(gpu::Commands& commands) {
+    if (untold) frame->recordFold(commands, *untold);
+    untold.reset();
+}
+
+void Renderer::State::recordBehind(gpu::Commands& commands, std::size_t slot, std::uint32_t sample_index) {
+    if (!keepsHistory(settings) || samples > 0) return;
+    frame->recordReproject(commands, slot, {sample_index, fresh ? 1U : 0U});
+    fresh = false;
+}
+
 void Renderer::State::foldOrders() {
     if (folded_samples == samples) return;
     order_sums->fold(samples - folded_samples);
@@ -214,7 +239,7 @@ void Renderer::State::foldOrders() {
 void Renderer::State::recordFilter(gpu::Commands& commands) {
     if (filtered_samples == samples) return;
     filtered_samples = samples;
-    frame->recordFilter(commands, halvesOf(settings.first_sample, samples), view.orthographic != 0);
+    frame->recordFilter(commands, halvesOf(firstSample(), samples), view.orthographic != 0);
 }
 
 void Renderer::State::readFiltered(Film& film) {
@@ -259,6 +284,20 @@ std::uint32_t Renderer::samples() const {
 
 // The history starts anew by itself: its passes see that there are no samples.
 void Renderer::State::restart() {
+    forgetSamples();
+    earlier_samples = 0;
+    fresh = true;
+    untold.reset();
+}
+
+void Renderer::State::changeView() {
+    if (!keepsHistory(settings)) return restart();
+    if (samples > 0) untold = halvesOf(firstSample(), samples);
+    earlier_samples += samples;
+    forgetSamples();
+}
+
+void Renderer::State::forgetSamples() {
     samples = 0;
     layer_samples = 0;
     filtered_samples = 0;
@@ -269,13 +308,16 @@ void Renderer::State::restart() {
     if (rounds) rounds->restart();
 }
 
-void Renderer::setCamera(const Camera& camera) {
+void Renderer::setCamera(const Camera& camera, ViewChange change) {
     State& s = *state_;
     const ViewRecord view = makeView(camera, s.settings.size, s.gpu_scene.bounds());
     s.camera = camera;
-    if (std::memcmp(&view, &s.view, sizeof(view)) == 0) return;
+    const bool same = std::memcmp(&view, &s.view, sizeof(view)) == 0;
     s.view = view;
-    s.restart();
+    if (change == ViewChange::cut)
+        s.restart();
+    else if (!same)
+        s.changeView();
 }
 
 void Renderer::resize(uvec2 size) {

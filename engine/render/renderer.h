@@ -11,6 +11,10 @@
 
 namespace licht {
 
+/// How one view follows the other: as a camera moves, so that with settings.moves and a filter the one tells
+/// something of the other; or all at once, as if the renderer were new.
+enum class ViewChange { motion, cut };
+
 /// The frame, in order: gbuffer -> trace -> accumulate -> tonemap. Offscreen and windowed use the same one.
 class Renderer {
 public:
@@ -35,8 +39,8 @@ public:
     /// Per pixel; on average where they differ, rounded down.
     [[nodiscard]] std::uint32_t samples() const;
 
-    /// Moves the camera; the history starts anew when the view differs.
-    void setCamera(const Camera& camera);
+    /// Moves the camera; the picture starts anew when the view differs, with what filters keep of it.
+    void setCamera(const Camera& camera, ViewChange change = ViewChange::motion);
     /// Changes the picture's size; the history starts anew.
     void resize(uvec2 size);
 

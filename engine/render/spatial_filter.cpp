@@ -49,12 +49,14 @@ HalfCounts halvesOf(std::uint32_t first_sample, std::uint32_t samples) {
     return {samples - odd, odd};
 }
 
-SpatialFilter::SpatialFilter(gpu::Device& device, const FilterPrograms& programs, const Images& images)
-    : programs_(programs), size_(images.size()) {
+SpatialFilter::SpatialFilter(gpu::Device& device, const FilterPrograms& programs, const Images& images,
+                             bool spatial)
+    : programs_(programs), size_(images.size()), spatial_(spatial) {
     const auto to = [&](const gpu::Program& program, std::size_t filter_from, std::size_t smooth_from) {
         const std::array filters{&images["filter_even"], &images["filter_odd"]};
         const std::array smooths{&images["smooth_even"], &images["smooth_odd"]};
-        const std::array<gpu::BoundResource, 9> resources{{{"signal_sums", &images["signal_sums"]},
+        const std::array<gpu::BoundResource, 10> resources{{{"signal_sums", &images["signal_sums"]},
+                                                           {"prior", &images["prior"]},
                                                            {"mean_high", &images["mean_high"]},
                                                            {"filter_guide", &images["filter_guide"]},
                                                            {"filter_from", filters[filter_from]},
@@ -73,11 +75,11 @@ SpatialFilter::SpatialFilter(gpu::Device& device, const FilterPrograms& programs
         level_[i] = to(programs.level, i, kVariances);
     }
     bias_ = to(programs.bias, kLevels % 2, kVariances);
-    end_ = to(programs.end, kLevels % 2, kBiases);
+    end_ = spatial ? to(programs.end, kLevels % 2, kBiases) : to(programs.end, 0, kVariances);
 }
 
 void SpatialFilter::record(gpu::Commands& commands, const HalfCounts& counts, bool orthographic) const {
-    assert(counts.a > 0 && counts.b > 0);
+    assert(counts.a > 0 || counts.b > 0);
     FilterPush push{};
     push.size = size_;
     push.orthographic = orthographic ? 1U : 0U;
@@ -97,12 +99,14 @@ void SpatialFilter::record(gpu::Commands& commands, const HalfCounts& counts, bo
     pass(PassId::filter_guide, programs_.guide, guide_);
     pass(PassId::filter_begin, programs_.begin, begin_);
     smooth(0, kVarianceSmoothings);
-    for (std::uint32_t i = 0; i < kLevels; ++i) {
+    for (std::uint32_t i = 0; spatial_ && i < kLevels; ++i) {
         push.stride = 1U << i;
         pass(PassId::filter_level, i == 0 ? programs_.first_level : programs_.level, level_[i % 2]);
     }
-    pass(PassId::filter_bias, programs_.bias, bias_);
-    smooth(1 - kVariances, kBiasSmoothings);
+    if (spatial_) {
+        pass(PassId::filter_bias, programs_.bias, bias_);
+        smooth(1 - kVariances, kBiasSmoothings);
+    }
     pass(PassId::filter_end, programs_.end, end_);
 }
 

@@ -25,16 +25,18 @@ HalfCounts halvesOf(std::uint32_t first_sample, std::uint32_t samples);
 class SpatialFilter {
 public:
     /// All must outlive it.
-    SpatialFilter(gpu::Device& device, const FilterPrograms& programs, const Images& images);
+    /// Without `spatial` it takes noise away only by what earlier views have told.
+    SpatialFilter(gpu::Device& device, const FilterPrograms& programs, const Images& images, bool spatial);
 
-    /// From the images "signal_sums" and "mean_high" to "filtered" (RGBA) and "filtered_error" (RGB:
-    /// estimated squared error; A: of that the squared bias, mean over the channels). At least one sample in
-    /// each half.
+    /// From the images "signal_sums", "prior" and "mean_high" to "filtered" (RGBA) and "filtered_error" (RGB:
+    /// estimated squared error; A: of that the squared bias, mean over the channels). `counts`: of the
+    /// present view, at least one sample in all.
     void record(gpu::Commands& commands, const HalfCounts& counts, bool orthographic) const;
 
 private:
     const FilterPrograms& programs_;
     uvec2 size_;
+    bool spatial_;
     gpu::Bindings guide_, begin_, bias_, end_;
     // From even to odd, and back.
     std::array<gpu::Bindings, 2> smooth_, level_;

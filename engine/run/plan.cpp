@@ -19,7 +19,7 @@ StopRules stopRules(const RunSettings& run) {
 }
 
 RunPlan planRun(gpu::Device& device, const Scene& scene, const Camera& camera, const RunSettings& run) {
-    if (run.render.adaptive && keepsSignals(run.render))
+    if (run.render.adaptive && run.render.denoise != Denoise::none)
         throw InputError("--denoise filters samples that are as many in every pixel: leave out --adaptive");
     RunPlan plan{run.render, stopRules(run), {}, {}, {}};
     plan.settings.blue_bits = blueBitsFor(run.samples);

@@ -93,13 +93,15 @@ constexpr auto namesOf(Energy) {
         {{"multiple", Energy::multiple}, {"single", Energy::single, "loses light where it is rough"}});
 }
 
-/// What is done about noise: nothing, or a filter over pixels that show one surface, whose share falls as the
-/// noise does.
-enum class Denoise : std::uint32_t { none, spatiotemporal };
+/// What is done about noise: nothing; what earlier views have told, brought to the present one; or that and a
+/// filter over pixels that show one surface, whose share falls as the noise does.
+enum class Denoise : std::uint32_t { none, temporal, spatiotemporal };
 constexpr auto namesOf(Denoise) {
     return std::to_array<NamedChoice<Denoise>>(
         {{"none", Denoise::none},
-         {"spatiotemporal", Denoise::spatiotemporal, "neighbours that differ by no more than noise"}});
+         {"temporal", Denoise::temporal, "earlier views of the same surfaces, where the camera moves"},
+         {"spatiotemporal", Denoise::spatiotemporal,
+          "that and neighbours that differ by no more than noise"}});
 }
 
 /// How linear values become those of a display.

@@ -28,6 +28,7 @@ struct RenderSettings {
     float clamp = 0.0F;
     bool regularise = false;  ///< widen glossy lobes behind a first scattering (biased)
     Denoise denoise = Denoise::none;
+    bool moves = false;  ///< the view will change: with denoise, what it told is brought to the next one
     Layering layering = Layering::view;
     Energy energy = Energy::multiple;
     bool orders = false;    ///< keep a layer per order T^i Le
@@ -49,7 +50,12 @@ struct RenderSettings {
 /// Whether samples are kept apart by what filters work on: in two independent halves, and by the lobes of
 /// what the camera sees.
 constexpr bool keepsSignals(const RenderSettings& settings) {
-    return settings.denoise == Denoise::spatiotemporal;
+    return settings.denoise == Denoise::spatiotemporal || (settings.denoise == Denoise::temporal && settings.moves);
+}
+
+/// Whether earlier views tell something of the present one.
+constexpr bool keepsHistory(const RenderSettings& settings) {
+    return settings.denoise != Denoise::none && settings.moves;
 }
 
 /// What a run is asked for: the picture, when to stop, and what is left to the program to choose. The first

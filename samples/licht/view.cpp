@@ -42,6 +42,7 @@ int view(const ViewOptions& options) {
     gpu::Device device(device_options);
     RenderSettings settings = options.run.render;
     settings.size = shot.size;
+    settings.moves = true;
     Renderer renderer(device, source.scene, shot.camera, settings);
     Swapchain swapchain(device, window);
 

@@ -12,15 +12,18 @@ void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (!isInside(pixel)) return;
     vec2 bias = vec2(0.0);  // squared; negative where noise has it so
+    bool told = true;
     if (tileTexel(filter_guide, kGuidePlace, pixel).w > 0.0) {
         vec4 centre = tileTexel(filter_from, kFilterCentre, pixel);
         for (uint kind = 0u; kind < kKinds; ++kind) {
             vec3 d = demodulation(kind, pixel);
             uint tile = kFilterSpread + kHalves * kind;
             vec3 f_a = tileTexel(filter_from, tile, pixel).rgb, f_b = tileTexel(filter_from, tile + 1u, pixel).rgb;
-            vec3 product = (lightOfHalf(kind, 0u, d, pixel) - f_b) * (lightOfHalf(kind, 1u, d, pixel) - f_a);
-            bias[kind] = dot(product, vec3(1.0 / 3.0)) + centre[kind] * centre[2u + kind] * (1.0 / push.count_a + 1.0 / push.count_b);
+            Halves x = halvesOf(kind, d, pixel);
+            told = told && isSplit(x);
+            vec3 product = (x.a - f_b) * (x.b - f_a);
+            bias[kind] = dot(product, vec3(1.0 / 3.0)) + centre[kind] * centre[2u + kind] * (1.0 / max(x.n_a, 1.0) + 1.0 / max(x.n_b, 1.0));
         }
     }
-    imageStore(smooth_to, pixel, vec4(bias, bias));
+    imageStore(smooth_to, pixel, told ? vec4(bias, bias) : vec4(kUntold));
 }

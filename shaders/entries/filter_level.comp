@@ -12,18 +12,18 @@ layout(rgba32f, binding = kBindingSmoothFrom) uniform readonly image2D smooth_fr
 layout(constant_id = kConstantFirstLevel) const bool kFirstLevel = false;
 
 // Both halves of a kind of light, with their variances.
-struct Halves {
+struct Filtered {
     vec4 a;
     vec4 b;
 };
 
-Halves halvesAt(uint kind, ivec2 origin_a, ivec2 origin_b, ivec2 pixel) {
-    Halves h = Halves(imageLoad(filter_from, origin_a + pixel), imageLoad(filter_from, origin_b + pixel));
-    // Before the first level it follows from a sample's.
+Filtered filteredAt(uint kind, ivec2 origin_a, ivec2 origin_b, ivec2 pixel) {
+    Filtered h = Filtered(imageLoad(filter_from, origin_a + pixel), imageLoad(filter_from, origin_b + pixel));
+    // Before the first level it follows from a sample's, and A is how many there are.
     if (kFirstLevel) {
         float of_sample = imageLoad(smooth_from, pixel)[kind];
-        h.a.w = of_sample / push.count_a;
-        h.b.w = of_sample / push.count_b;
+        h.a.w = of_sample / h.a.w;
+        h.b.w = of_sample / h.b.w;
     }
     return h;
 }
@@ -38,7 +38,7 @@ void filterKind(uint kind, ivec2 pixel, Guide guide, inout float centre) {
     const float kCentre = 0.375 * 0.375;
     uint tile = kFilterSpread + kHalves * kind;
     ivec2 origin_a = tileOrigin(imageSize(filter_from), push.size, tile), origin_b = tileOrigin(imageSize(filter_from), push.size, tile + 1u);
-    Halves here = halvesAt(kind, origin_a, origin_b, pixel);
+    Filtered here = filteredAt(kind, origin_a, origin_b, pixel);
     vec3 sum_a = kCentre * here.a.rgb, sum_b = kCentre * here.b.rgb;
     float variance_a = kCentre * kCentre * here.a.w, variance_b = kCentre * kCentre * here.b.w;
     float weights_a = kCentre, weights_b = kCentre;
@@ -48,7 +48,7 @@ void filterKind(uint kind, ivec2 pixel, Guide guide, inout float centre) {
             if (offset == ivec2(0) || !isInside(tap)) continue;
             float surface = distanceFromSurface(guide, tap, offset);
             if (surface > kFarthest) continue;
-            Halves there = halvesAt(kind, origin_a, origin_b, tap);
+            Filtered there = filteredAt(kind, origin_a, origin_b, tap);
             float row = rowOfFive(x) * rowOfFive(y);
             float w_a = row * exp(-surface - distanceOfLight(here.b, there.b)), w_b = row * exp(-surface - distanceOfLight(here.a, there.a));
             sum_a += w_a * there.a.rgb;

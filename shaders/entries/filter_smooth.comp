@@ -10,21 +10,23 @@ void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (!isInside(pixel)) return;
     Guide guide = guideOf(pixel);
-    float centre = rowOfThree(0) * rowOfThree(0);
-    vec4 sum = centre * imageLoad(smooth_from, pixel);
-    float weights = centre;
+    vec4 here = imageLoad(smooth_from, pixel);
+    float weights = isTold(here) ? rowOfThree(0) * rowOfThree(0) : 0.0;
+    vec4 sum = weights * here;
     for (int y = -1; y <= 1 && guide.place > 0.0; ++y) {
         for (int x = -1; x <= 1; ++x) {
             ivec2 offset = ivec2(x, y) * int(push.stride), tap = pixel + offset;
             if (offset == ivec2(0) || !isInside(tap)) continue;
             float surface = distanceFromSurface(guide, tap, offset);
             if (surface > kFarthest) continue;
+            vec4 there = imageLoad(smooth_from, tap);
+            if (!isTold(there)) continue;
             float w = rowOfThree(x) * rowOfThree(y) * exp(-surface);
-            sum += w * imageLoad(smooth_from, tap);
+            sum += w * there;
             weights += w;
         }
     }
-    vec4 smoothed = sum / weights;
-    smoothed.zw = mix(smoothed.zw, imageLoad(smooth_from, pixel).zw, bvec2(push.stride > kNarrow));
+    vec4 smoothed = weights > 0.0 ? sum / weights : here;
+    smoothed.zw = mix(smoothed.zw, here.zw, bvec2(push.stride > kNarrow && isTold(here)));
     imageStore(smooth_to, pixel, smoothed);
 }

@@ -24,6 +24,7 @@ const RayRecord kNoRay = RayRecord(vec3(0.0), 0.0, vec3(0.0, 0.0, 1.0), -1.0);
 void onLight(uvec2 pixel, uint order, uint way, vec3 kept, vec3 lost) {}
 void onRays(uvec2 pixel, uint order, uint rays) {}
 void onFirstVertex(uvec2 pixel, Surface s, vec3 wo_local) {}
+void onSecondVertex(uvec2 pixel, float distance_) {}
 void onFirstWay(uvec2 pixel, uint way, vec3 share_of_spread) {}
 
 RayRecord recordOf(RayQuery ray) { return RayRecord(ray.origin, ray.t_min, ray.direction, ray.t_max); }

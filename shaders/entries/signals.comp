@@ -3,13 +3,17 @@
 // Sums over samples of what filters work on, in two halves.
 #include "pure/tiles.glsl"
 #include "shared/bindings.h"
+#include "shared/constants.h"
 #include "shared/frame.h"
+#include "shared/index.h"
 #include "shared/signals.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
+layout(constant_id = kConstantReprojects) const bool kReprojects = false;
 layout(push_constant) uniform Push { SamplePush push; };
 layout(std430, binding = kBindingFrame) readonly buffer FrameBlock { FrameRecord frame; };
 layout(rgba32f, binding = kBindingRadiance) uniform readonly image2D radiance_image;
+layout(rgba32ui, binding = kBindingGbuffer) uniform readonly uimage2D gbuffer;
 layout(rgba32f, binding = kBindingSampleSignals) uniform readonly image2D sample_signals;
 layout(rgba32f, binding = kBindingSignalSums) uniform image2D signal_sums;
 
@@ -18,6 +22,19 @@ vec4 sampled(uvec2 pixel, uint tile) { return imageLoad(sample_signals, tilePlac
 void add(uvec2 pixel, uint tile, vec4 value, bool fresh) {
     ivec2 at = tilePlace(imageSize(signal_sums), frame.view.size, tile, pixel);
     imageStore(signal_sums, at, value + mix(imageLoad(signal_sums, at), vec4(0.0), bvec4(fresh)));  // selected, not branched on: see accumulate.comp
+}
+
+// What the pixel shows, and whether it is one thing alone.
+void noteSurface(uvec2 pixel, bool fresh) {
+    uint instance = imageLoad(gbuffer, ivec2(pixel)).x;
+    float surface = instance == kNoIndex ? 0.0 : float(instance + 1u);
+    ivec2 at = tilePlace(imageSize(signal_sums), frame.view.size, kSumSurface, pixel);
+    vec4 before = imageLoad(signal_sums, at);
+    float alone = fresh || (before.y > 0.0 && before.x == surface) ? 1.0 : 0.0;
+    // A path that mirrors nothing says nothing of how far what is mirrored lies.
+    vec4 onward = sampled(pixel, kShareOnward);
+    bool mirrors = dot(onward.rgb, vec3(1.0)) < 1.5;
+    imageStore(signal_sums, at, vec4(surface, alone, mirrors ? onward.a : 0.0, 0.0));
 }
 
 void main() {
@@ -33,4 +50,5 @@ void main() {
     add(pixel, kSumFirstSpread, sampled(pixel, kFirstSpread), fresh);
     add(pixel, kSumFirstMirrored, sampled(pixel, kFirstMirrored), fresh);
     add(pixel, kSumFirstPlace, sampled(pixel, kFirstPlace), fresh);
+    if (kReprojects) noteSurface(pixel, fresh);
 }

@@ -32,6 +32,10 @@ float rowOfThree(int tap) { return tap == 0 ? 0.5 : 0.25; }
 const uint kNarrow = 2u;
 const float kNarrowPixels = 32.0;
 
+// A pixel that has nothing to say about a statistic says this, and is not asked; anything far below all values.
+const float kUntold = -1e30;
+bool isTold(vec4 statistics) { return statistics.x > 0.5 * kUntold; }
+
 struct Guide {
     vec3 normal;
     float place;  // linear over a plane's picture; 0: there is no surface

@@ -2,28 +2,67 @@
 #ifndef LICHT_FILTER_HALVES_GLSL
 #define LICHT_FILTER_HALVES_GLSL
 #include "filter/filter.glsl"
+#include "shared/constants.h"
 
+layout(constant_id = kConstantReprojects) const bool kReprojects = false;
 layout(rgba32f, binding = kBindingSignalSums) uniform readonly image2D signal_sums;
+layout(rgba32f, binding = kBindingPrior) uniform readonly image2D prior;
 
-float countOf(uint half_) { return half_ == 0u ? push.count_a : push.count_b; }
-float countOfBoth() { return push.count_a + push.count_b; }
-
-// Of a value per sample, whose halves have these means: its variance, by one degree of freedom. The mean of n samples has 1/n of it.
-float varianceBetween(vec3 a, vec3 b) { return meanSquare(a - b) * push.count_a * push.count_b / countOfBoth(); }
+// A kind of light at a pixel, demodulated, mean over so many samples of each half: those of this view, and what earlier views have told.
+struct Halves {
+    vec3 a;
+    vec3 b;
+    float n_a;
+    float n_b;
+};
 
 // By which a pixel's light of a kind is divided, and multiplied again. The floor keeps zero over zero away, and is for thin films, which mirror where what lies
 // under them does not.
 vec3 demodulation(uint kind, ivec2 pixel) {
     const float kFloor = 1e-4;
-    return max(tileTexel(signal_sums, kSumFirstSpread + kind, pixel).rgb / countOfBoth(), vec3(kFloor));
+    return max(tileTexel(signal_sums, kSumFirstSpread + kind, pixel).rgb / (push.count_a + push.count_b), vec3(kFloor));
 }
 
-// Demodulated light of a kind, mean over a half.
-vec3 lightOfHalf(uint kind, uint half_, vec3 demodulation, ivec2 pixel) {
-    return tileTexel(signal_sums, kSumSpread + kHalves * kind + half_, pixel).rgb / (countOf(half_) * demodulation);
+// Of one half, demodulated; RGB: sum; A: of so many samples.
+vec4 sumOfHalf(uint kind, uint half_, vec3 demodulation, ivec2 pixel) {
+    vec4 sum = vec4(tileTexel(signal_sums, kSumSpread + kHalves * kind + half_, pixel).rgb / demodulation, half_ == 0u ? push.count_a : push.count_b);
+    // What a half without a sample holds may be anything.
+    if (sum.a == 0.0) sum.rgb = vec3(0.0);
+    if (kReprojects) {
+        vec4 before = tileTexel(prior, kPriorSpread + kHalves * kind + half_, pixel);
+        sum += vec4(before.a * before.rgb, before.a);
+    }
+    return sum;
 }
+
+Halves halvesOf(uint kind, vec3 demodulation, ivec2 pixel) {
+    vec4 a = sumOfHalf(kind, 0u, demodulation, pixel), b = sumOfHalf(kind, 1u, demodulation, pixel);
+    return Halves(a.rgb / max(a.a, 1.0), b.rgb / max(b.a, 1.0), a.a, b.a);
+}
+
+float countOf(Halves h) { return h.n_a + h.n_b; }
+
+// Where all samples lie in one half, there is nothing that tells noise from light: both are that one then.
+bool isSplit(Halves h) { return h.n_a > 0.0 && h.n_b > 0.0; }
+
+Halves whole(Halves h) {
+    if (isSplit(h)) return h;
+    vec3 x = h.n_a > 0.0 ? h.a : h.b;
+    return Halves(x, x, countOf(h), countOf(h));
+}
+
+// Of a value per sample, whose halves have these means: its variance, by one degree of freedom. The mean of n samples has 1/n of it.
+float varianceBetween(Halves h) { return meanSquare(h.a - h.b) * h.n_a * h.n_b / countOf(h); }
 
 // Both halves, weighed by their samples.
-vec3 ofBoth(vec3 a, vec3 b) { return (push.count_a * a + push.count_b * b) / countOfBoth(); }
+vec3 ofBoth(vec3 a, vec3 b, Halves h) { return (h.n_a * a + h.n_b * b) / countOf(h); }
+
+// Of this view's samples alone.
+vec3 ofThisView(uint kind, vec3 demodulation, ivec2 pixel) {
+    vec3 sum = vec3(0.0);
+    if (push.count_a > 0.0) sum += tileTexel(signal_sums, kSumSpread + kHalves * kind, pixel).rgb;
+    if (push.count_b > 0.0) sum += tileTexel(signal_sums, kSumSpread + kHalves * kind + 1u, pixel).rgb;
+    return sum / ((push.count_a + push.count_b) * demodulation);
+}
 
 #endif

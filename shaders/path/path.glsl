@@ -15,6 +15,7 @@ layout(constant_id = kConstantMisBalance) const bool kMisBalance = false;
 layout(constant_id = kConstantClamp) const bool kClamp = false;
 layout(constant_id = kConstantRegularise) const bool kRegularise = false;
 layout(constant_id = kConstantSignals) const bool kSignals = false;  // light is kept apart by the lobes of the first vertex
+layout(constant_id = kConstantReprojects) const bool kReprojects = false;  // and what it mirrors has a distance
 
 // Ways by which light came to the first vertex.
 const uint kWayToLight = 0u;
@@ -77,11 +78,12 @@ Path beginPath(SampleAddress address, Hit hit, vec3 wo) {
 }
 
 // The including shader defines what else happens (path/watch.glsl): to light that a path found along the way on which it left its first vertex, and to rays
-// that looked for light of an order; to that vertex, and to how its lobes share the light of a way.
+// that looked for light of an order; to that vertex, to how its lobes share the light of a way, and to the way from there to the next.
 void onLight(uvec2 pixel, uint order, uint way, vec3 kept, vec3 lost);
 void onRays(uvec2 pixel, uint order, uint rays);
 void onFirstVertex(uvec2 pixel, Surface s, vec3 wo_local);
 void onFirstWay(uvec2 pixel, uint way, vec3 share_of_spread);
+void onSecondVertex(uvec2 pixel, float distance_);
 
 // Light that would arrive straight from a sampled light and scatter towards wo, one order of T applied to Le, with the ray that asks whether it does.
 // One sample of the lights: several at what the camera sees, and several candidates of which one is kept (Talbot, Cline, Egbert 2005, Importance Resampling
@@ -157,6 +159,7 @@ void extendPath(inout Path p, inout PathCounts counts, out ShadowRay to_light, o
     to_light = kNoShadowRay;
     // What the surface emits: T^bounce Le.
     Surface s = surfaceAt(p.hit, p.wo);
+    if (kReprojects && p.bounce == 1u) onSecondVertex(p.address.pixel, distance(s.position, p.from.position));
     if (kRegularise && p.bounce > 0u) s.bsdf = regularised(s.bsdf);
     if (kUnlit && s.unlit && p.bounce > 0u) s.emission = vec3(0.0);
     if (kEmission || kUnlit) {

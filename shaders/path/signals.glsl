@@ -25,6 +25,7 @@ void beginSignals(uvec2 pixel) {
     if (!kSignals) return;
     setSignal(pixel, kSampleSpread, vec4(0.0));
     setSignal(pixel, kSampleMirrored, vec4(0.0));
+    if (kReprojects) setSignal(pixel, kShareOnward, vec4(1.0, 1.0, 1.0, 0.0));
     setSignal(pixel, kFirstSpread, vec4(0.0));
     setSignal(pixel, kFirstMirrored, vec4(0.0));
     setSignal(pixel, kFirstPlace, vec4(0.0));
@@ -39,6 +40,12 @@ void noteFirstVertex(uvec2 pixel, Surface s, vec3 wo_local) {
 
 void noteFirstWay(uvec2 pixel, uint way, vec3 share_of_spread) {
     setSignal(pixel, way == kWayToLight ? kShareToLight : kShareOnward, vec4(share_of_spread, 0.0));
+}
+
+// How far the path went from its first vertex to the next.
+void noteSecondVertex(uvec2 pixel, float distance_) {
+    ivec2 at = signalPlace(pixel, kShareOnward);
+    imageStore(sample_signals, at, vec4(imageLoad(sample_signals, at).rgb, distance_));
 }
 
 void noteSignal(uvec2 pixel, uint way, vec3 light) {

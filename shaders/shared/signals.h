@@ -10,7 +10,7 @@ LICHT_SHARED_BEGIN
 LICHT_CONSTANT uint kSampleSpread = 0u;                    // light, spread evenly
 LICHT_CONSTANT uint kSampleMirrored = kSampleSpread + 1u;  // light, mirrored
 LICHT_CONSTANT uint kShareToLight = kSampleMirrored + 1u;  // of the light of the ray to a light: what is spread evenly
-LICHT_CONSTANT uint kShareOnward = kShareToLight + 1u;     // of the light along the path
+LICHT_CONSTANT uint kShareOnward = kShareToLight + 1u;     // of the light along the path; A: how far it went to the next surface, metres; 0: none
 LICHT_CONSTANT uint kFirstSpread = kShareOnward + 1u;      // RGB: by what light spread evenly is demodulated; A: 1 where a surface is
 LICHT_CONSTANT uint kFirstMirrored = kFirstSpread + 1u;    // RGB: and light mirrored; A: GGX width
 LICHT_CONSTANT uint kFirstPlace = kFirstMirrored + 1u;     // XYZ: normal; W: depth along the axis
@@ -24,7 +24,17 @@ LICHT_CONSTANT uint kSumSeen = kSumMirrored + kHalves;     // light that comes s
 LICHT_CONSTANT uint kSumFirstSpread = kSumSeen + kHalves;  // of both halves from here on
 LICHT_CONSTANT uint kSumFirstMirrored = kSumFirstSpread + 1u;
 LICHT_CONSTANT uint kSumFirstPlace = kSumFirstMirrored + 1u;
-LICHT_CONSTANT uint kSumTiles = kSumFirstPlace + 1u;
+LICHT_CONSTANT uint kSumSurface = kSumFirstPlace + 1u;  // no sums; X: what the last sample showed, instance + 1 (0: nothing); Y: 1 where all showed that;
+                                                        // Z: how far from there its path met the next surface
+LICHT_CONSTANT uint kSumTiles = kSumSurface + 1u;
+
+// What earlier views have told, in history as they saw it and in prior as this view sees it. RGB: demodulated light, mean of A samples.
+LICHT_CONSTANT uint kPriorSpread = 0u;  // a half behind the other
+LICHT_CONSTANT uint kPriorMirrored = kPriorSpread + kHalves;
+LICHT_CONSTANT uint kPriorTiles = kPriorMirrored + kHalves;
+LICHT_CONSTANT uint kHistoryPlace = kPriorTiles;  // in history alone. XYZ: normal; W: depth along the axis, 0: nothing can be had here
+LICHT_CONSTANT uint kHistorySurface = kHistoryPlace + 1u;  // X, Z: as in kSumSurface
+LICHT_CONSTANT uint kHistoryTiles = kHistorySurface + 1u;
 
 // What is filtered, in filter_even and filter_odd. RGB: demodulated light; A: its variance, the mean of the channels'.
 LICHT_CONSTANT uint kFilterSpread = 0u;  // a half behind the other
@@ -42,8 +52,14 @@ struct FilterPush {
     uvec2 size;         // of the picture
     uint orthographic;  // 1: so is the camera
     uint stride;        // between taps, in pixels
-    float count_a;      // samples of the halves, at least one each
+    float count_a;      // samples of this view in the halves, at least one in both together
     float count_b;
+};
+
+// Push constants of the pass that brings the history to a new view.
+struct ReprojectPush {
+    uint sample_index;  // of the view's first sample
+    uint fresh;         // 1: there is no history
 };
 
 LICHT_SHARED_END

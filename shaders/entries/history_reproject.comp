@@ -1,0 +1,66 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Brings the history to a new view: each pixel finds where in the view before lay what it shows now.
+#include "history/reproject.glsl"
+#include "shared/bindings.h"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(constant_id = kEffectGlossy) const bool kGlossy = true;
+layout(push_constant) uniform Push { ReprojectPush push; };
+layout(rgba32f, binding = kBindingSampleSignals) uniform readonly image2D sample_signals;
+layout(rgba32f, binding = kBindingPrior) uniform writeonly image2D prior;
+
+struct Told {
+    vec4 a;  // RGB: light, A: of so many samples
+    vec4 b;
+};
+
+vec4 sampled(ivec2 pixel, uint tile) { return imageLoad(sample_signals, tilePlace(imageSize(sample_signals), frame.view.size, tile, uvec2(pixel))); }
+
+void store(uint kind, ivec2 pixel, Told told) {
+    uint tile = kPriorSpread + kHalves * kind;
+    imageStore(prior, tilePlace(imageSize(prior), frame.view.size, tile, uvec2(pixel)), told.a);
+    imageStore(prior, tilePlace(imageSize(prior), frame.view.size, tile + 1u, uvec2(pixel)), told.b);
+}
+
+Told toldAround(uint kind, Wanted wanted, vec2 place) {
+    uint tile = kPriorSpread + kHalves * kind;
+    ivec2 first = ivec2(floor(place - 0.5));
+    vec2 f = place - 0.5 - vec2(first);
+    vec4 a = vec4(0.0), b = vec4(0.0);
+    float weights = 0.0;
+    for (int i = 0; i < 4; ++i) {
+        ivec2 offset = ivec2(i & 1, i >> 1), tap = first + offset;
+        vec2 rows = mix(1.0 - f, f, equal(offset, ivec2(1)));
+        float w = rows.x * rows.y;
+        if (w <= 0.0 || !showsSurface(wanted, tap)) continue;
+        vec4 t_a = historyAt(tile, tap), t_b = historyAt(tile + 1u, tap);
+        a += w * vec4(t_a.a * t_a.rgb, t_a.a);
+        b += w * vec4(t_b.a * t_b.rgb, t_b.a);
+        weights += w;
+    }
+    return Told(vec4(a.rgb / max(a.a, 1e-6), a.a / max(weights, 1e-6)), vec4(b.rgb / max(b.a, 1e-6), b.a / max(weights, 1e-6)));
+}
+
+// Where in the view before, in pixels, the point was; the middle of the pixel beside it has moved as far, whatever the jitter.
+vec2 placeBefore(vec3 position, vec2 jitter) { return pixelFromWorld(frame.previous_view, position) - jitter + 0.5; }
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(pixel, ivec2(frame.view.size)))) return;
+    Told spread = Told(vec4(0.0), vec4(0.0)), mirrored = spread;
+    Hit hit = gbufferHit(pixel);
+    if (push.fresh == 0u && hit.instance != kNoIndex) {
+        vec2 jitter = cameraJitter(push.sample_index, frame.seed);
+        vec3 position = hitPosition(hit);
+        float depth = depthIn(frame.previous_view, position);
+        if (depth > 0.0) {
+            const float kOffPlane = 0.01;  // of the distance
+            Wanted wanted = Wanted(position, sampled(pixel, kFirstPlace).xyz, float(hit.instance + 1u), kOffPlane * depth);
+            spread = toldAround(0u, wanted, placeBefore(position, jitter));
+            if (kGlossy) mirrored = toldAround(1u, wanted, placeBefore(position, jitter));
+        }
+    }
+    store(0u, pixel, spread);
+    if (kGlossy) store(1u, pixel, mirrored);
+}
