@@ -35,7 +35,11 @@ Frame::Frame(gpu::Device& device, const Programs& programs, const GpuScene& scen
             bound.accumulate = to(programs.accumulate);
             if (settings.layers.anyDrawn()) bound.layers = to(programs.layers);
             if (programs.filter) bound.signals = to(programs.filter->signals);
-            if (programs.history) bound.reproject = to(programs.history->reproject);
+            if (programs.history) {
+                bound.reproject = to(programs.history->reproject);
+                bound.edges = to(programs.history->edges);
+                bound.parts = to(programs.history->parts);
+            }
             if (slot == 0) tonemap_.push_back(to(programs.tonemap));
             if (wavefront_)
                 wavefront_->bind(std::move(resources));
@@ -44,9 +48,12 @@ Frame::Frame(gpu::Device& device, const Programs& programs, const GpuScene& scen
         }
     }
     if (!programs.filter) return;
-    filter_.emplace(device, *programs.filter, images_, settings.denoise == Denoise::spatiotemporal);
-    if (programs.history)
-        fold_ = gpu::Bindings(device, programs.history->fold, images_.resources(images_.parity()));
+    filter_.emplace(device, *programs.filter, images_, settings);
+    if (programs.history) {
+        const std::vector<gpu::BoundResource> images = images_.resources(images_.parity());
+        fold_ = gpu::Bindings(device, programs.history->fold, images);
+        resolve_ = gpu::Bindings(device, programs.history->resolve, images);
+    }
     const std::array<gpu::BoundResource, 2> shown{
         {{"mean_high", &images_["filtered"]}, {"display_image", &images_["display_image"]}}};
     tonemap_filtered_ = gpu::Bindings(device, programs.tonemap, shown);
@@ -73,17 +80,17 @@ void Frame::record(gpu::Commands& commands, std::size_t slot, const Slice& slice
 }
 
 void Frame::recordFold(gpu::Commands& commands, const HalfCounts& counts) const {
-    FilterPush push{};
-    push.size = images_.size();
-    push.count_a = static_cast<float>(counts.a);
-    push.count_b = static_cast<float>(counts.b);
-    commands.dispatch(passName(PassId::history_fold), {programs_.history->fold, fold_}, push, pixels());
+    commands.dispatch(passName(PassId::history_fold), {programs_.history->fold, fold_},
+                      filterPush(images_.size(), counts, false), pixels());
 }
 
 void Frame::recordReproject(gpu::Commands& commands, std::size_t slot, const ReprojectPush& push) const {
     const Bound& on = bound_[slot * images_.parities() + images_.parity()];
     commands.dispatch(passName(PassId::history_reproject), {programs_.history->reproject, on.reproject}, push,
                       pixels());
+    commands.dispatch(passName(PassId::history_edges), {programs_.history->edges, on.edges}, push, pixels());
+    commands.dispatch(passName(PassId::history_parts), {programs_.history->parts, on.parts}, push,
+                      {pixels().x * kEdgeParts, pixels().y});
 }
 
 void Frame::followPaths(gpu::Commands& commands, std::size_t bound, const SamplePush& push) const {
@@ -98,6 +105,9 @@ void Frame::followPaths(gpu::Commands& commands, std::size_t bound, const Sample
 
 void Frame::recordFilter(gpu::Commands& commands, const HalfCounts& counts, bool orthographic) const {
     filter_->record(commands, counts, orthographic);
+    if (programs_.history)
+        commands.dispatch(passName(PassId::filter_resolve), {programs_.history->resolve, resolve_},
+                          filterPush(images_.size(), counts, orthographic), pixels());
 }
 
 void Frame::recordDisplay(gpu::Commands& commands, const TonemapPush& push, bool filtered) const {

@@ -51,7 +51,7 @@ public:
 
 private:
     struct Bound {
-        gpu::Bindings gbuffer, path, accumulate, layers, signals, reproject;
+        gpu::Bindings gbuffer, path, accumulate, layers, signals, reproject, edges, parts;
     };
     void followPaths(gpu::Commands& commands, std::size_t bound, const SamplePush& push) const;
     [[nodiscard]] gpu::Threads pixels() const { return {images_.size().x, images_.size().y}; }
@@ -66,7 +66,7 @@ private:
     std::vector<gpu::Bindings> tonemap_;  ///< per parity
     std::optional<SpatialFilter> filter_;
     gpu::Bindings tonemap_filtered_;
-    gpu::Bindings fold_;
+    gpu::Bindings fold_, resolve_;
 };
 
 }  // namespace licht

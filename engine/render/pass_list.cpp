@@ -24,12 +24,15 @@ constexpr auto kPasses = std::to_array<PassInfo>({
     {PassId::signals, "signals", false},
     {PassId::history_fold, "history fold", false},
     {PassId::history_reproject, "history reproject", false},
+    {PassId::history_edges, "history edges", false},
+    {PassId::history_parts, "history parts", false},
     {PassId::filter_guide, "filter guide", false},
     {PassId::filter_begin, "filter begin", false},
     {PassId::filter_smooth, "filter smooth", false},
     {PassId::filter_level, "filter level", false},
     {PassId::filter_bias, "filter bias", false},
     {PassId::filter_end, "filter end", false},
+    {PassId::filter_resolve, "filter resolve", false},
     {PassId::tonemap, "tonemap", false},
 });
 

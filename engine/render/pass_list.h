@@ -25,12 +25,15 @@ enum class PassId {
     signals,
     history_fold,
     history_reproject,
+    history_edges,
+    history_parts,
     filter_guide,
     filter_begin,
     filter_smooth,
     filter_level,
     filter_bias,
     filter_end,
+    filter_resolve,
     tonemap,
 };
 

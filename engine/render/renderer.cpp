@@ -74,7 +74,7 @@ struct Renderer::State {
     void resize(uvec2 size);
     /// Nothing that was seen counts any longer.
     void restart();
-    /// What was seen counts for what is seen next.
+    /// What was seen may count for what is seen next, whose samples are others.
     void changeView();
     void forgetSamples();
     /// What a new view's first sample does beside the others: before its passes, and behind them.
@@ -108,8 +108,8 @@ struct Renderer::State {
     std::uint32_t layer_samples = 0;     ///< in the layers
     std::uint32_t filtered_samples = 0;  ///< of the history, that "filtered" is made of
     std::uint32_t folded_samples = 0;    ///< of the history, into order_sums
-    std::uint32_t earlier_samples = 0;   ///< of views before this one that it is told of
-    bool fresh = true;                   ///< there is none
+    std::uint32_t earlier_samples = 0;   ///< of views before this one, since the last cut
+    bool fresh = true;                   ///< there is none that this one is told of
     std::optional<HalfCounts> untold;    ///< samples of the view before that "history" does not hold yet
     gpu::Image folded_mean;              ///< of all rounds, for the display
     gpu::Bindings folded_bindings;
@@ -291,8 +291,8 @@ void Renderer::State::restart() {
 }
 
 void Renderer::State::changeView() {
-    if (!keepsHistory(settings)) return restart();
-    if (samples > 0) untold = halvesOf(firstSample(), samples);
+    if (!settings.moves) return restart();
+    if (samples > 0 && keepsHistory(settings)) untold = halvesOf(firstSample(), samples);
     earlier_samples += samples;
     forgetSamples();
 }

@@ -11,8 +11,8 @@
 
 namespace licht {
 
-/// How one view follows the other: as a camera moves, so that with settings.moves and a filter the one tells
-/// something of the other; or all at once, as if the renderer were new.
+/// How one view follows the other: as a camera moves, so that with settings.moves the one may tell something
+/// of the other; or all at once, as if the renderer were new.
 enum class ViewChange { motion, cut };
 
 /// The frame, in order: gbuffer -> trace -> accumulate -> tonemap. Offscreen and windowed use the same one.

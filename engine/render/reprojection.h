@@ -8,6 +8,9 @@ struct HistoryPrograms {
     HistoryPrograms(gpu::Device& device, const gpu::SpecConstants& constants);
     gpu::Program fold;       ///< once the view has changed: from "signal_sums" and "prior" to "history"
     gpu::Program reproject;  ///< behind the new view's first sample: from "history" to "prior"
+    gpu::Program edges;      ///< likewise: which pixels in "edge_parts" are at edges
+    gpu::Program parts;      ///< and what those are drawn from
+    gpu::Program resolve;    ///< behind the filter: from "edge_parts" and "unresolved" to "filtered"
 };
 
 }  // namespace licht

@@ -49,22 +49,34 @@ HalfCounts halvesOf(std::uint32_t first_sample, std::uint32_t samples) {
     return {samples - odd, odd};
 }
 
+FilterPush filterPush(uvec2 size, const HalfCounts& counts, bool orthographic) {
+    FilterPush push{};
+    push.size = size;
+    push.orthographic = orthographic ? 1U : 0U;
+    push.stride = 1;
+    push.count_a = static_cast<float>(counts.a);
+    push.count_b = static_cast<float>(counts.b);
+    return push;
+}
+
 SpatialFilter::SpatialFilter(gpu::Device& device, const FilterPrograms& programs, const Images& images,
-                             bool spatial)
-    : programs_(programs), size_(images.size()), spatial_(spatial) {
+                             const RenderSettings& settings)
+    : programs_(programs), size_(images.size()), spatial_(settings.denoise == Denoise::spatiotemporal) {
+    const bool resolved = keepsHistory(settings);
     const auto to = [&](const gpu::Program& program, std::size_t filter_from, std::size_t smooth_from) {
         const std::array filters{&images["filter_even"], &images["filter_odd"]};
         const std::array smooths{&images["smooth_even"], &images["smooth_odd"]};
-        const std::array<gpu::BoundResource, 10> resources{{{"signal_sums", &images["signal_sums"]},
-                                                           {"prior", &images["prior"]},
-                                                           {"mean_high", &images["mean_high"]},
-                                                           {"filter_guide", &images["filter_guide"]},
-                                                           {"filter_from", filters[filter_from]},
-                                                           {"filter_to", filters[1 - filter_from]},
-                                                           {"smooth_from", smooths[smooth_from]},
-                                                           {"smooth_to", smooths[1 - smooth_from]},
-                                                           {"filtered", &images["filtered"]},
-                                                           {"filtered_error", &images["filtered_error"]}}};
+        const std::array<gpu::BoundResource, 10> resources{
+            {{"signal_sums", &images["signal_sums"]},
+             {"prior", &images["prior"]},
+             {"mean_high", &images["mean_high"]},
+             {"filter_guide", &images["filter_guide"]},
+             {"filter_from", filters[filter_from]},
+             {"filter_to", filters[1 - filter_from]},
+             {"smooth_from", smooths[smooth_from]},
+             {"smooth_to", smooths[1 - smooth_from]},
+             {"filtered", &images[resolved ? "unresolved" : "filtered"]},
+             {"filtered_error", &images[resolved ? "unresolved_error" : "filtered_error"]}}};
         return gpu::Bindings(device, program, resources);
     };
     // Each pass takes up where the one before it left off.
@@ -75,17 +87,12 @@ SpatialFilter::SpatialFilter(gpu::Device& device, const FilterPrograms& programs
         level_[i] = to(programs.level, i, kVariances);
     }
     bias_ = to(programs.bias, kLevels % 2, kVariances);
-    end_ = spatial ? to(programs.end, kLevels % 2, kBiases) : to(programs.end, 0, kVariances);
+    end_ = spatial_ ? to(programs.end, kLevels % 2, kBiases) : to(programs.end, 0, kVariances);
 }
 
 void SpatialFilter::record(gpu::Commands& commands, const HalfCounts& counts, bool orthographic) const {
     assert(counts.a > 0 || counts.b > 0);
-    FilterPush push{};
-    push.size = size_;
-    push.orthographic = orthographic ? 1U : 0U;
-    push.stride = 1;
-    push.count_a = static_cast<float>(counts.a);
-    push.count_b = static_cast<float>(counts.b);
+    FilterPush push = filterPush(size_, counts, orthographic);
     const auto pass = [&](PassId id, const gpu::Program& program, const gpu::Bindings& bindings) {
         commands.dispatch(passName(id), {program, bindings}, push, {size_.x, size_.y});
     };

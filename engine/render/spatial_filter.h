@@ -22,11 +22,16 @@ struct HalfCounts {
 };
 HalfCounts halvesOf(std::uint32_t first_sample, std::uint32_t samples);
 
+/// Of a pass over whole pictures; stride 1.
+FilterPush filterPush(uvec2 size, const HalfCounts& counts, bool orthographic);
+
 class SpatialFilter {
 public:
     /// All must outlive it.
-    /// Without `spatial` it takes noise away only by what earlier views have told.
-    SpatialFilter(gpu::Device& device, const FilterPrograms& programs, const Images& images, bool spatial);
+    /// With denoise temporal it takes noise away only by what earlier views have told. Where a history is
+    /// kept it makes "unresolved" and "unresolved_error" instead.
+    SpatialFilter(gpu::Device& device, const FilterPrograms& programs, const Images& images,
+                  const RenderSettings& settings);
 
     /// From the images "signal_sums", "prior" and "mean_high" to "filtered" (RGBA) and "filtered_error" (RGB:
     /// estimated squared error; A: of that the squared bias, mean over the channels). `counts`: of the

@@ -28,7 +28,9 @@ struct RenderSettings {
     float clamp = 0.0F;
     bool regularise = false;  ///< widen glossy lobes behind a first scattering (biased)
     Denoise denoise = Denoise::none;
-    bool moves = false;  ///< the view will change: with denoise, what it told is brought to the next one
+    bool moves =
+        false;  ///< the view will change: the next one has other samples, whose noise would otherwise
+                ///< stand before what moves; and with denoise it is told what this one found
     Layering layering = Layering::view;
     Energy energy = Energy::multiple;
     bool orders = false;    ///< keep a layer per order T^i Le
@@ -50,7 +52,8 @@ struct RenderSettings {
 /// Whether samples are kept apart by what filters work on: in two independent halves, and by the lobes of
 /// what the camera sees.
 constexpr bool keepsSignals(const RenderSettings& settings) {
-    return settings.denoise == Denoise::spatiotemporal || (settings.denoise == Denoise::temporal && settings.moves);
+    return settings.denoise == Denoise::spatiotemporal ||
+           (settings.denoise == Denoise::temporal && settings.moves);
 }
 
 /// Whether earlier views tell something of the present one.

@@ -12,7 +12,7 @@ struct PrintedText {
 };
 
 using Command = std::variant<PrintedText, RenderOptions, InfoOptions, DevicesOptions, ViewOptions,
-                             BenchOptions, CompareOptions>;
+                             BenchOptions, CompareOptions, AccuracyOptions>;
 
 /// Throws InputError of one line on wrong usage.
 Command parseCommandLine(int argument_count, const char* const* arguments);

@@ -10,5 +10,6 @@ int info(const InfoOptions& options);
 int bench(const BenchOptions& options);
 int devices(const DevicesOptions& options);
 int compare(const CompareOptions& options);
+int accuracy(const AccuracyOptions& options);
 
 }  // namespace licht

@@ -26,6 +26,7 @@ struct Run {
     int operator()(const licht::DevicesOptions& options) const { return licht::devices(options); }
     int operator()(const licht::ViewOptions& options) const { return licht::view(options); }
     int operator()(const licht::CompareOptions& options) const { return licht::compare(options); }
+    int operator()(const licht::AccuracyOptions& options) const { return licht::accuracy(options); }
 };
 
 int complain(const char* text, ExitCode code) {

@@ -23,6 +23,12 @@ struct SizeRequest {
     std::uint32_t height = 0;
 };
 
+inline constexpr std::uint32_t kDefaultFrames = 96;
+inline constexpr std::uint32_t kMostFrames = 1'000'000;
+inline constexpr double kDefaultRate = 24.0;
+inline constexpr double kMostRate = 1e6;
+inline constexpr std::uint32_t kDefaultReferenceSamples = 512;  ///< of a frame that others are measured by
+
 /// Which scene, seen how, lit by what. Shared by render and view.
 struct SceneRequest {
     std::string scene;                       ///< built-in name or path of a .gltf or .glb
@@ -36,10 +42,19 @@ struct SceneRequest {
     bool strict = false;              ///< images that cannot be read are errors
 };
 
+/// Which path of a camera, a built-in name or a .json file, in how many frames, how many of them a second.
+struct PathRequest {
+    std::string path;
+    std::uint32_t frames = kDefaultFrames;  ///< at least one
+    double rate = kDefaultRate;             ///< finite, above zero
+};
+
 struct RenderOptions {
     SceneRequest source;
     RunSettings run;                             ///< render.size is filled in from the field beside it
     std::vector<std::filesystem::path> outputs;  ///< .png and .exr; empty: "<scene name>.png"
+    std::optional<PathRequest> path;  ///< a picture for each of its frames; outputs are then patterns
+    bool resume = false;              ///< the path's frames that are there stay
     std::optional<SizeRequest> size;
     std::string device;
     std::optional<std::filesystem::path> report;
@@ -80,6 +95,18 @@ struct ViewOptions {
     std::optional<SizeRequest> size;
     std::string device;
     std::uint64_t frames = 0;  ///< 0: until the window is closed
+};
+
+struct AccuracyOptions {
+    SceneRequest source;
+    RunSettings run;  ///< its samples are those of a frame
+    PathRequest path{"strafe"};
+    bool temporal = false;
+    std::uint32_t reference_samples = kDefaultReferenceSamples;
+    std::optional<SizeRequest> size;
+    std::string device;
+    std::optional<std::filesystem::path> json, csv, svg;
+    bool quiet = false;
 };
 
 /// How many triangles: "250000", "300k", "1.5M"; kFewestTriangles to kMostTriangles.

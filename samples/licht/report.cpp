@@ -80,6 +80,18 @@ ordered_json adaptiveJson(const RenderReport& report) {
     return {{"fewest_samples", report.fewest_samples}, {"most_samples", report.most_samples}};
 }
 
+ordered_json sequenceJson(const RenderReport& report) {
+    if (!report.sequence) return nullptr;
+    ordered_json frames = ordered_json::array();
+    for (const FrameReport& frame : report.sequence->frames)
+        frames.push_back(
+            {{"frame", frame.frame},
+             {"seconds", frame.seconds},
+             {"relative_error", frame.error >= 0.0 ? ordered_json(frame.error) : ordered_json(nullptr)},
+             {"cut", frame.cut}});
+    return {{"path", report.sequence->path}, {"fps", report.sequence->rate}, {"frames", frames}};
+}
+
 }  // namespace
 
 std::uint64_t hostPeakBytes() {
@@ -124,6 +136,7 @@ std::string reportJson(const RenderReport& report) {
     json["rays_per_second"] =
         report.render_seconds > 0.0 ? static_cast<double>(report.rays()) / report.render_seconds : 0.0;
     json["relative_error"] = report.error >= 0.0 ? ordered_json(report.error) : ordered_json(nullptr);
+    json["sequence"] = sequenceJson(report);
     json["orders"] = ordersJson(report);
     json["tail"] = tailJson(report);
     json["nonfinite_samples"] = statistics.nonfinite_samples;

@@ -17,6 +17,20 @@
 
 namespace licht {
 
+struct FrameReport {
+    std::uint32_t frame = 0;
+    double seconds = 0.0;  ///< of rendering and filtering
+    double error = -1.0;   ///< relative, estimated
+    bool cut = false;
+};
+
+/// The frames of a camera's path that this run drew.
+struct SequenceReport {
+    std::string path;
+    double rate = 0.0;  ///< frames a second
+    std::vector<FrameReport> frames;
+};
+
 /// What a picture was made of and what it cost.
 struct RenderReport {
     std::string scene;
@@ -42,6 +56,7 @@ struct RenderReport {
     std::vector<LightBatch> light;              ///< where orders are kept or the clamp is on
     std::optional<DepthChoice> depth;           ///< of --bounces auto
     std::optional<BiasMeasure> regularisation;  ///< where it is on
+    std::optional<SequenceReport> sequence;     ///< where a path was followed; the rest is of its last frame
     std::uint32_t fewest_samples = 0;           ///< of a pixel, where adaptive
     std::uint32_t most_samples = 0;
     std::vector<std::string> effects;

@@ -42,19 +42,6 @@ bool isTestScene(const NamedScene& source) {
         fmt::format("{}: no such scene: neither a .gltf or .glb file nor built in ({})", source, names));
 }
 
-std::optional<std::size_t> findCamera(const Scene& scene, const std::string& wanted) {
-    std::size_t index = 0;
-    const char* end = wanted.data() + wanted.size();
-    const auto [stop, error] = std::from_chars(wanted.data(), end, index);
-    if (error == std::errc{} && stop == end && index < scene.cameras.size()) return index;
-    for (const auto member : {&Camera::node, &Camera::name}) {
-        const auto named = std::find_if(scene.cameras.begin(), scene.cameras.end(),
-                                        [&](const Camera& camera) { return camera.*member == wanted; });
-        if (named != scene.cameras.end()) return static_cast<std::size_t>(named - scene.cameras.begin());
-    }
-    return std::nullopt;
-}
-
 std::string cameraWords(const Camera& camera) {
     return camera.node.empty() || camera.node == camera.name
                ? fmt::format("'{}'", camera.name)
@@ -97,6 +84,19 @@ std::string scenesThatCount() {
 }
 
 }  // namespace
+
+std::optional<std::size_t> findCamera(const Scene& scene, const std::string& wanted) {
+    std::size_t index = 0;
+    const char* end = wanted.data() + wanted.size();
+    const auto [stop, error] = std::from_chars(wanted.data(), end, index);
+    if (error == std::errc{} && stop == end && index < scene.cameras.size()) return index;
+    for (const auto member : {&Camera::node, &Camera::name}) {
+        const auto named = std::find_if(scene.cameras.begin(), scene.cameras.end(),
+                                        [&](const Camera& camera) { return camera.*member == wanted; });
+        if (named != scene.cameras.end()) return static_cast<std::size_t>(named - scene.cameras.begin());
+    }
+    return std::nullopt;
+}
 
 bool takesTriangles(const std::string& source) {
     const auto& scenes = builtinScenes();

@@ -24,6 +24,9 @@ NamedScene loadNamedScene(const SceneRequest& request);
 /// sky was asked for; a note says so.
 NamedScene loadScene(const SceneRequest& request);
 
+/// Of the scene's cameras the one of that number or, where there is none, of that node's or its own name.
+std::optional<std::size_t> findCamera(const Scene& scene, const std::string& wanted);
+
 /// From where a scene is seen, and in which size.
 struct Shot {
     Camera camera;

@@ -45,6 +45,30 @@ Told toldAround(uint kind, Wanted wanted, vec2 place) {
 // Where in the view before, in pixels, the point was; the middle of the pixel beside it has moved as far, whatever the jitter.
 vec2 placeBefore(vec3 position, vec2 jitter) { return pixelFromWorld(frame.previous_view, position) - jitter + 0.5; }
 
+// Mean curvature of what the pixel shows, 1/m, from the normals of the pixels beside it that show the same.
+float curvatureAt(ivec2 pixel, Hit hit, vec3 position, vec3 normal) {
+    float sum = 0.0, count = 0.0;
+    for (int i = 0; i < 4; ++i) {
+        ivec2 tap = pixel + (i < 2 ? ivec2(2 * i - 1, 0) : ivec2(0, 2 * i - 5));
+        if (any(lessThan(tap, ivec2(0))) || any(greaterThanEqual(tap, ivec2(frame.view.size))) || gbufferHit(tap).instance != hit.instance) continue;
+        vec4 there = sampled(tap, kFirstPlace);
+        vec3 way = positionIn(frame.view, tap, there.w) - position;
+        sum += dot(there.xyz - normal, way) / max(dot(way, way), 1e-30);
+        count += 1.0;
+    }
+    return count > 0.0 ? sum / count : 0.0;
+}
+
+// What a mirror shows is looked for where its image was; what a lobe spreads wider the more where the surface was.
+Told toldOfMirrored(ivec2 pixel, Hit hit, Wanted wanted, vec2 jitter) {
+    float likeness = mirrorLikeness(sampled(pixel, kFirstMirrored).a), onward = sampled(pixel, kShareOnward).a;
+    vec3 away = wanted.position - frame.view.eye, direction = frame.view.orthographic != 0u ? -frame.view.back : normalize(away);
+    float image = distanceOfImage(likeness * onward, curvatureAt(pixel, hit, wanted.position, wanted.normal), -dot(direction, wanted.normal));
+    const float kSharp = 0.8;
+    if (likeness > kSharp) wanted.mirrored = onward;
+    return toldAround(1u, wanted, placeBefore(wanted.position + max(image, 0.0) * direction, jitter));
+}
+
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(pixel, ivec2(frame.view.size)))) return;
@@ -56,9 +80,9 @@ void main() {
         float depth = depthIn(frame.previous_view, position);
         if (depth > 0.0) {
             const float kOffPlane = 0.01;  // of the distance
-            Wanted wanted = Wanted(position, sampled(pixel, kFirstPlace).xyz, float(hit.instance + 1u), kOffPlane * depth);
+            Wanted wanted = Wanted(position, sampled(pixel, kFirstPlace).xyz, float(hit.instance + 1u), kOffPlane * depth, 0.0);
             spread = toldAround(0u, wanted, placeBefore(position, jitter));
-            if (kGlossy) mirrored = toldAround(1u, wanted, placeBefore(position, jitter));
+            if (kGlossy) mirrored = toldOfMirrored(pixel, hit, wanted, jitter);
         }
     }
     store(0u, pixel, spread);

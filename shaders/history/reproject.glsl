@@ -15,6 +15,7 @@ struct Wanted {
     vec3 normal;
     float instance;  // + 1
     float reach;     // metres that its plane may be off
+    float mirrored;  // metres to what it mirrors as sharply as a picture; 0: it does not
 };
 
 vec4 historyAt(uint tile, ivec2 pixel) { return imageLoad(history, tilePlace(imageSize(history), frame.view.size, tile, uvec2(pixel))); }
@@ -28,12 +29,26 @@ vec3 positionIn(ViewRecord view, ivec2 pixel, float depth) {
     return ray.origin + ray.direction * (depth / -dot(view.back, ray.direction));
 }
 
+// Where behind a mirror at that position the image of what lies so far before it is. curvature: of the mirror, 1/m, positive where it is convex (Coddington's
+// equation, of its mean). Negative: there is none, or before the mirror.
+float distanceOfImage(float distance_, float curvature, float cos_o) { return distance_ / (1.0 + 2.0 * curvature * distance_ / max(cos_o, 0.1)); }
+
+// How far a lobe of that GGX width looks along the mirror's direction: 1 a mirror, 0 any way.
+// Lagarde, de Rousiers 2014, Moving Frostbite to Physically Based Rendering, section 4.9.3.
+float mirrorLikeness(float alpha) {
+    float roughness = sqrt(clamp(alpha, 0.0, 1.0)), smoothness = 1.0 - roughness;
+    return smoothness * (sqrt(smoothness) + roughness);
+}
+
 // Whether a pixel of the view before shows the surface: the same instance, on its plane, facing alike.
 bool showsSurface(Wanted wanted, ivec2 tap) {
     const float kFacing = 0.7;  // cosine: bumps agree, corners do not
     if (any(lessThan(tap, ivec2(0))) || any(greaterThanEqual(tap, ivec2(frame.previous_view.size)))) return false;
     vec4 place = historyAt(kHistoryPlace, tap);
-    if (place.w <= 0.0 || historyAt(kHistorySurface, tap).x != wanted.instance) return false;
+    vec4 surface = historyAt(kHistorySurface, tap);
+    if (place.w <= 0.0 || surface.x != wanted.instance) return false;
+    const float kOffDistance = 0.25;  // what lies behind in a mirror is as well hidden as what lies behind without one
+    if (wanted.mirrored > 0.0 && abs(surface.z - wanted.mirrored) > kOffDistance * min(surface.z, wanted.mirrored)) return false;
     if (dot(place.xyz, wanted.normal) < kFacing) return false;
     return abs(dot(wanted.normal, positionIn(frame.previous_view, tap, place.w) - wanted.position)) < wanted.reach;
 }

@@ -38,8 +38,9 @@ void noteFirstVertex(uvec2 pixel, Surface s, vec3 wo_local) {
     setSignal(pixel, kFirstPlace, vec4(s.frame.normal, -dot(frame.view.back, s.position - frame.view.eye)));
 }
 
+// Until a path meets a second surface it goes on for ever.
 void noteFirstWay(uvec2 pixel, uint way, vec3 share_of_spread) {
-    setSignal(pixel, way == kWayToLight ? kShareToLight : kShareOnward, vec4(share_of_spread, 0.0));
+    setSignal(pixel, way == kWayToLight ? kShareToLight : kShareOnward, vec4(share_of_spread, kFarthestOnward));
 }
 
 // How far the path went from its first vertex to the next.

@@ -10,11 +10,13 @@ LICHT_SHARED_BEGIN
 LICHT_CONSTANT uint kSampleSpread = 0u;                    // light, spread evenly
 LICHT_CONSTANT uint kSampleMirrored = kSampleSpread + 1u;  // light, mirrored
 LICHT_CONSTANT uint kShareToLight = kSampleMirrored + 1u;  // of the light of the ray to a light: what is spread evenly
-LICHT_CONSTANT uint kShareOnward = kShareToLight + 1u;     // of the light along the path; A: how far it went to the next surface, metres; 0: none
+LICHT_CONSTANT uint kShareOnward = kShareToLight + 1u;     // of the light along the path; A: how far it went to the next surface, metres; 0: nowhere
 LICHT_CONSTANT uint kFirstSpread = kShareOnward + 1u;      // RGB: by what light spread evenly is demodulated; A: 1 where a surface is
 LICHT_CONSTANT uint kFirstMirrored = kFirstSpread + 1u;    // RGB: and light mirrored; A: GGX width
 LICHT_CONSTANT uint kFirstPlace = kFirstMirrored + 1u;     // XYZ: normal; W: depth along the axis
 LICHT_CONSTANT uint kSampleTiles = kFirstPlace + 1u;
+
+LICHT_CONSTANT float kFarthestOnward = 1e9f;  // metres: what is seen in the sky
 
 // Sums over samples, in signal_sums. Samples fall into two halves that know nothing of each other: the second one's tile stands behind the first one's.
 LICHT_CONSTANT uint kHalves = 2u;
@@ -32,7 +34,7 @@ LICHT_CONSTANT uint kSumTiles = kSumSurface + 1u;
 LICHT_CONSTANT uint kPriorSpread = 0u;  // a half behind the other
 LICHT_CONSTANT uint kPriorMirrored = kPriorSpread + kHalves;
 LICHT_CONSTANT uint kPriorTiles = kPriorMirrored + kHalves;
-LICHT_CONSTANT uint kHistoryPlace = kPriorTiles;  // in history alone. XYZ: normal; W: depth along the axis, 0: nothing can be had here
+LICHT_CONSTANT uint kHistoryPlace = kPriorTiles;           // in history alone. XYZ: normal; W: depth along the axis, 0: nothing can be had here
 LICHT_CONSTANT uint kHistorySurface = kHistoryPlace + 1u;  // X, Z: as in kSumSurface
 LICHT_CONSTANT uint kHistoryTiles = kHistorySurface + 1u;
 
@@ -46,6 +48,12 @@ LICHT_CONSTANT uint kFilterTiles = kFilterCentre + 1u;
 LICHT_CONSTANT uint kGuidePlace = 0u;  // XYZ: normal; W: 1 / depth, which is linear over a plane's picture, or under an orthographic camera depth; 0: none
 LICHT_CONSTANT uint kGuideSlope = 1u;  // XY: its change from pixel to pixel
 LICHT_CONSTANT uint kGuideTiles = 2u;
+
+// Of pixels at edges, in edge_parts: which pixel each part of them is drawn from, by its number among the nine around, row by row.
+LICHT_CONSTANT uint kEdgeParts = 4u;
+LICHT_CONSTANT uint kEdgeMark = kEdgeParts;  // 1: at an edge
+LICHT_CONSTANT uint kEdgeTiles = kEdgeMark + 1u;
+LICHT_CONSTANT int kEdgeSelf = 4;
 
 // Push constants of the filter's passes.
 struct FilterPush {

@@ -1,0 +1,191 @@
+#include "licht/run/temporal_accuracy.h"
+
+#include <cmath>
+#include <cstring>
+#include <memory>
+#include <numeric>
+#include <optional>
+
+#include "licht/core/clock.h"
+#include "licht/measure/metrics.h"
+#include "licht/measure/statistics.h"
+#include "licht/run/disocclusion.h"
+
+namespace licht {
+namespace {
+
+Image withoutAlpha(const Image& rgba) {
+    Image rgb(rgba.width, rgba.height, 3);
+    for (std::size_t i = 0; 3 * i < rgb.texels.size(); ++i)
+        for (std::size_t c = 0; c < 3; ++c) rgb.texels[3 * i + c] = rgba.texels[4 * i + c];
+    return rgb;
+}
+
+/// The converged picture of a frame: the mean of two of other samples, whose difference tells its error.
+struct Truth {
+    Image mean;
+    Image depth;  ///< along the axis, metres
+    ViewRecord view{};
+    double rel_mse = 0.0;
+};
+
+class Truths {
+public:
+    Truths(gpu::Device& device, const Scene& scene, const Camera& camera, RenderSettings settings,
+           std::uint32_t samples)
+        : samples_((samples + 1) / 2), bounds_(sceneBounds(scene)), size_(settings.size) {
+        settings.denoise = Denoise::none;
+        settings.moves = false;
+        settings.layers = {};
+        settings.layers.add(LayerId::depth);
+        for (auto& renderer : renderers_) {
+            settings.seed = settings.seed * 2654435761U + 1U;  // far from the pictures' and from each other's
+            renderer = std::make_unique<Renderer>(device, scene, camera, settings);
+        }
+    }
+
+    /// Of a frame; one that shows what the last one did is not made again.
+    const Truth& of(const Camera& camera) {
+        const ViewRecord view = makeView(camera, size_, bounds_);
+        if (!truth_.mean.texels.empty() && std::memcmp(&view, &truth_.view, sizeof(view)) == 0) return truth_;
+        std::array<Film, 2> films;
+        for (std::size_t i = 0; i < films.size(); ++i) {
+            renderers_[i]->setCamera(camera, ViewChange::cut);
+            for (std::uint32_t sample = 0; sample < samples_; ++sample) renderers_[i]->renderSample();
+            films[i] = renderers_[i]->readFilm();
+        }
+        const Image one = withoutAlpha(films[0].mean);
+        truth_ = {withoutAlpha(films[1].mean), films[0].layer(LayerId::depth), view, 0.0};
+        for (std::size_t i = 0; i < one.texels.size(); ++i)
+            truth_.mean.texels[i] = 0.5F * (truth_.mean.texels[i] + one.texels[i]);
+        truth_.rel_mse = relMse(one, truth_.mean);  // a quarter of the difference's square
+        return truth_;
+    }
+
+private:
+    std::uint32_t samples_;
+    Bounds bounds_;
+    uvec2 size_;
+    std::array<std::unique_ptr<Renderer>, 2> renderers_;
+    Truth truth_;
+};
+
+/// A way of taking noise out, frame after frame.
+class Runner {
+public:
+    Runner(gpu::Device& device, const Scene& scene, const Camera& camera, RenderSettings settings,
+           Denoise mode, std::uint32_t samples)
+        : samples_(samples) {
+        result_.mode = mode;
+        settings.denoise = mode;
+        settings.moves = true;
+        settings.layers = {};
+        renderer_ = std::make_unique<Renderer>(device, scene, camera, settings);
+    }
+
+    void draw(const PathFrame& frame) {
+        const Clock::time_point start = Clock::now();
+        renderer_->setCamera(frame.camera, frame.change);
+        for (std::uint32_t i = 0; i < samples_; ++i) renderer_->renderSample();
+        previous_ = std::move(picture_);
+        picture_ = withoutAlpha(renderer_->readFilm().mean);
+        result_.frames.push_back({secondsSince(start), 0.0});
+    }
+    void compare(const Truth& truth) {
+        result_.frames.back().rel_mse = relMse(picture_, truth.mean) - truth.rel_mse;
+    }
+    void addFlicker(const Image& before, const Image& now) {
+        double sum = 0.0;
+        for (std::size_t i = 0; i < now.texels.size(); ++i)
+            sum += std::abs(changeOf(previous_, picture_, i) - changeOf(before, now, i));
+        const double whole = std::accumulate(now.texels.begin(), now.texels.end(), 0.0);
+        if (whole > 0.0) flicker_.add(sum / whole);
+    }
+    void addGhost(const Image& raw, const Image& truth, std::span<const std::uint8_t> disoccluded) {
+        const std::vector<double> means = channelMeans(truth);
+        const double mean = std::accumulate(means.begin(), means.end(), 0.0) / 3.0;
+        for (std::size_t pixel = 0; pixel < disoccluded.size(); ++pixel)
+            if (disoccluded[pixel] != 0)
+                ghost_.add(squareAt(picture_, truth, pixel, mean) - squareAt(raw, truth, pixel, mean));
+    }
+    [[nodiscard]] const Image& picture() const { return picture_; }
+    [[nodiscard]] TemporalMode result() const {
+        TemporalMode mode = result_;
+        mode.flicker = flicker_.mean();
+        mode.ghost = {ghost_.mean(), ghost_.count() < 2 ? -1.0 : std::sqrt(ghost_.varianceOfMean()),
+                      ghost_.count()};
+        return mode;
+    }
+
+private:
+    static double changeOf(const Image& before, const Image& now, std::size_t i) {
+        return static_cast<double>(now.texels[i]) - static_cast<double>(before.texels[i]);
+    }
+    static double squareAt(const Image& picture, const Image& truth, std::size_t pixel, double mean) {
+        double sum = 0.0;
+        for (std::size_t c = 0; c < 3; ++c) {
+            const auto b = static_cast<double>(truth.texels[3 * pixel + c]);
+            const double difference = static_cast<double>(picture.texels[3 * pixel + c]) - b;
+            sum += relativeSquare(difference * difference, b, mean) / 3.0;
+        }
+        return sum;
+    }
+
+    std::uint32_t samples_;
+    std::unique_ptr<Renderer> renderer_;
+    TemporalMode result_;
+    Image picture_, previous_;
+    RunningStatistics flicker_, ghost_;
+};
+
+double meanOf(const std::vector<TemporalFrame>& frames, double TemporalFrame::*member) {
+    double sum = 0.0;
+    for (const TemporalFrame& frame : frames) sum += frame.*member;
+    return frames.empty() ? 0.0 : sum / static_cast<double>(frames.size());
+}
+
+}  // namespace
+
+double TemporalMode::relMse() const {
+    return meanOf(frames, &TemporalFrame::rel_mse);
+}
+
+double TemporalMode::seconds() const {
+    return meanOf(frames, &TemporalFrame::seconds);
+}
+
+TemporalAccuracy measureTemporal(gpu::Device& device, const Scene& scene, std::span<const PathFrame> path,
+                                 const RenderSettings& settings, const TemporalRequest& request,
+                                 const TemporalHooks& hooks) {
+    Truths truths(device, scene, path.front().camera, settings, request.reference_samples);
+    std::vector<Runner> runners;
+    for (const Denoise mode : kTemporalModes)
+        runners.emplace_back(device, scene, path.front().camera, settings, mode, request.samples);
+    TemporalAccuracy result;
+    std::optional<Truth> before;
+    for (std::size_t frame = 0; frame < path.size(); ++frame) {
+        if (hooks.interrupted && hooks.interrupted()) break;
+        const Truth& truth = truths.of(path[frame].camera);
+        result.reference_rel_mse += truth.rel_mse;
+        for (Runner& runner : runners) {
+            runner.draw(path[frame]);
+            runner.compare(truth);
+        }
+        if (before && path[frame].change == ViewChange::motion) {
+            const std::vector<std::uint8_t> disoccluded =
+                findDisoccluded({before->view, before->depth}, {truth.view, truth.depth});
+            for (Runner& runner : runners) {
+                runner.addFlicker(before->mean, truth.mean);
+                runner.addGhost(runners.front().picture(), truth.mean, disoccluded);
+            }
+        }
+        before = truth;
+        if (hooks.progress) hooks.progress(frame + 1, path.size());
+    }
+    for (const Runner& runner : runners) result.modes.push_back(runner.result());
+    result.reference_rel_mse /=
+        std::max<double>(1.0, static_cast<double>(result.modes.front().frames.size()));
+    return result;
+}
+
+}  // namespace licht

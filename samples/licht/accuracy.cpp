@@ -1,0 +1,140 @@
+#include <fmt/format.h>
+
+#include <array>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <span>
+
+#include "licht/core/clock.h"
+#include "licht/core/file.h"
+#include "licht/core/json_text.h"
+#include "licht/core/progress.h"
+#include "licht/run/temporal_accuracy.h"
+#include "licht/settings/choices.h"
+#include "samples/licht/camera_path.h"
+#include "samples/licht/commands.h"
+#include "samples/licht/interrupt.h"
+#include "samples/licht/outputs.h"
+#include "samples/licht/plot.h"
+#include "samples/licht/scene_source.h"
+
+namespace licht {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json accuracyJson(const AccuracyOptions& options, const Shot& shot, const TemporalAccuracy& accuracy) {
+    Json json{{"scene", options.source.scene},
+              {"camera", shot.camera_name},
+              {"width", shot.size.x},
+              {"height", shot.size.y},
+              {"path", options.path.path},
+              {"fps", options.path.rate},
+              {"spp", options.run.samples.value_or(1)},
+              {"reference_spp", options.reference_samples},
+              {"reference_relmse", accuracy.reference_rel_mse},
+              {"modes", Json::array()}};
+    for (const TemporalMode& mode : accuracy.modes) {
+        Json frames = Json::array();
+        for (std::size_t i = 0; i < mode.frames.size(); ++i)
+            frames.push_back(
+                {{"frame", i}, {"relmse", mode.frames[i].rel_mse}, {"ms", 1000.0 * mode.frames[i].seconds}});
+        json["modes"].push_back(
+            {{"mode", nameOf(mode.mode)},
+             {"relmse", mode.relMse()},
+             {"ms_per_frame", 1000.0 * mode.seconds()},
+             {"flicker", mode.flicker},
+             {"ghost",
+              {{"value", mode.ghost.value},
+               {"standard_error",
+                mode.ghost.standard_error >= 0.0 ? Json(mode.ghost.standard_error) : Json(nullptr)},
+               {"pixels", mode.ghost.pixels}}},
+             {"frames", frames}});
+    }
+    return json;
+}
+
+std::string accuracyCsv(const TemporalAccuracy& accuracy) {
+    std::string text = "mode,frame,relmse,ms\n";
+    for (const TemporalMode& mode : accuracy.modes)
+        for (std::size_t i = 0; i < mode.frames.size(); ++i)
+            text += fmt::format("{},{},{:.6g},{:.3f}\n", nameOf(mode.mode), i, mode.frames[i].rel_mse,
+                                1000.0 * mode.frames[i].seconds);
+    return text;
+}
+
+std::string accuracySvg(const AccuracyOptions& options, const TemporalAccuracy& accuracy) {
+    Plot plot{fmt::format("{}, path {}: error of each frame", options.source.scene, options.path.path),
+              "frame",
+              "relMSE",
+              {}};
+    for (const TemporalMode& mode : accuracy.modes) {
+        Curve curve{std::string(nameOf(mode.mode)), {}};
+        for (std::size_t i = 0; i < mode.frames.size(); ++i)
+            curve.points.emplace_back(static_cast<double>(i), mode.frames[i].rel_mse);
+        plot.curves.push_back(std::move(curve));
+    }
+    return svgText(plot);
+}
+
+std::string accuracyText(const TemporalAccuracy& accuracy) {
+    std::string text = fmt::format("{:<16}{:>10}{:>10}{:>10}{:>10}{:>20}\n", "mode", "ms/frame", "relMSE",
+                                   "of raw", "flicker", "ghost");
+    const TemporalMode& raw = accuracy.modes.front();
+    for (const TemporalMode& mode : accuracy.modes) {
+        const std::string ghost =
+            mode.ghost.standard_error < 0.0
+                ? "-"
+                : fmt::format("{:.2g} +- {:.1g}", mode.ghost.value, mode.ghost.standard_error);
+        text += fmt::format("{:<16}{:>10.1f}{:>10.3g}{:>10}{:>10.3g}{:>20}\n", nameOf(mode.mode),
+                            1000.0 * mode.seconds(), mode.relMse(),
+                            fmt::format("1/{:.3g}", raw.relMse() / mode.relMse()), mode.flicker, ghost);
+    }
+    return text + fmt::format("relMSE of the references, taken off: {:.2g}\n", accuracy.reference_rel_mse);
+}
+
+void write(const std::optional<std::filesystem::path>& file, const std::string& text) {
+    if (file) writeFile(*file, std::as_bytes(std::span(text)));
+}
+
+}  // namespace
+
+int accuracy(const AccuracyOptions& options) {
+    std::vector<std::filesystem::path> outputs;
+    for (const auto& file : {options.json, options.csv, options.svg}) {
+        if (!file) continue;
+        checkWritable(*file);
+        outputs.push_back(*file);
+    }
+    const NamedScene source = loadScene(options.source);
+    requireOwnFiles(outputs, source.scene.files);
+    const Shot shot = chooseShot(source, options.source.camera, options.size);
+    const std::vector<PathFrame> path = followPath(options.path, source, shot.camera);
+
+    std::optional<ProgressLine> progress(std::in_place, stderr, options.quiet);
+    gpu::DeviceOptions device_options;
+    device_options.device = options.device;
+    gpu::Device device(device_options);
+    RenderSettings settings = options.run.render;
+    settings.size = shot.size;
+    const InterruptWatch interrupt;
+    const TemporalHooks hooks{
+        [&interrupt] { return interrupt.asked(); },
+        [&progress, start = Clock::now()](std::size_t done, std::size_t frames) {
+            const double seconds = secondsSince(start);
+            progress->show(
+                fmt::format("frame {}/{}  {:.1f} s  {:.1f} s left", done, frames, seconds,
+                            seconds * static_cast<double>(frames - done) / static_cast<double>(done)));
+        }};
+    const TemporalAccuracy accuracy =
+        measureTemporal(device, source.scene, path, settings,
+                        {options.run.samples.value_or(1), options.reference_samples}, hooks);
+    progress.reset();
+    write(options.json, jsonText(accuracyJson(options, shot, accuracy)));
+    write(options.csv, accuracyCsv(accuracy));
+    write(options.svg, accuracySvg(options, accuracy));
+    printOut(accuracyText(accuracy));
+    return device.validationMessages().empty() ? 0 : 1;
+}
+
+}  // namespace licht

@@ -1,0 +1,178 @@
+#include "samples/licht/sequence.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "licht/core/clock.h"
+#include "licht/film/error_estimate.h"
+#include "licht/run/process_clock.h"
+#include "samples/licht/camera_path.h"
+#include "samples/licht/frame_pattern.h"
+#include "samples/licht/interrupt.h"
+#include "samples/licht/outputs.h"
+#include "samples/licht/render_steps.h"
+#include "samples/licht/text.h"
+
+namespace licht {
+namespace {
+
+/// Files of a sequence: one of each pattern for a frame.
+class FrameFiles {
+public:
+    explicit FrameFiles(const std::vector<std::filesystem::path>& patterns)
+        : patterns_(patterns.begin(), patterns.end()) {}
+
+    [[nodiscard]] std::vector<std::filesystem::path> of(std::uint32_t frame) const {
+        std::vector<std::filesystem::path> files;
+        for (const FramePattern& pattern : patterns_) files.push_back(pattern.of(frame));
+        return files;
+    }
+    /// The first frame of which a file is missing; they appear whole or not at all.
+    [[nodiscard]] std::uint32_t firstMissing(std::uint32_t frames) const {
+        for (std::uint32_t frame = 0; frame < frames; ++frame)
+            for (const auto& file : of(frame))
+                if (!std::filesystem::exists(file)) return frame;
+        return frames;
+    }
+
+private:
+    std::vector<FramePattern> patterns_;
+};
+
+/// Where a sequence begins, so that frame `wanted` is as if it had begun at the first: nothing before a cut
+/// tells of what comes behind it.
+std::uint32_t firstThatTells(const std::vector<PathFrame>& path, std::uint32_t wanted) {
+    for (std::uint32_t frame = wanted; frame > 0 && frame < path.size(); --frame)
+        if (path[frame].change == ViewChange::cut) return frame;
+    return 0;
+}
+
+/// Nothing that the frames read or write may be another of them.
+void requireOwnFrames(const RenderOptions& options, const Scene& scene, const FrameFiles& files,
+                      std::uint32_t frames) {
+    for (std::uint32_t frame = 0; frame < frames; ++frame)
+        requireFilesOfItsOwn(options, scene, files.of(frame));
+}
+
+/// What is drawn: a frame after the other, each with its files.
+class SequenceRun {
+public:
+    SequenceRun(const RenderOptions& options, const std::vector<PathFrame>& path, const FrameFiles& files,
+                RenderReport& report, double exposure)
+        : options_(options), path_(path), files_(files), report_(report), exposure_(exposure) {}
+
+    /// Frames from `first` on; the last one's film. Stops early where a file cannot be written.
+    LoopResult draw(gpu::Device& device, Renderer& renderer, std::uint32_t first, FilesWritten& written,
+                    ProgressLine& progress) {
+        const InterruptWatch interrupt;
+        const Clock::time_point start = Clock::now();
+        LoopResult result;
+        const std::uint32_t begun = firstThatTells(path_, first);
+        for (std::uint32_t frame = begun; frame < path_.size() && written.all(); ++frame) {
+            const Clock::time_point frame_start = Clock::now();
+            renderer.setCamera(path_[frame].camera, frame == begun ? ViewChange::cut : path_[frame].change);
+            for (std::uint32_t i = 0; i < *options_.run.samples && !interrupt.asked(); ++i)
+                renderer.renderSample();
+            if (interrupt.asked()) {
+                result.stopped_by = Stop::interrupt;
+                break;
+            }
+            if (frame < first) continue;
+            result.film = renderer.readFilm();
+            result.error = relativeError(result.film);
+            if (frame == first) result.first_image_seconds = secondsSinceProcessStart();
+            report_.sequence->frames.push_back(
+                {frame, secondsSince(frame_start), result.error, path_[frame].change == ViewChange::cut});
+            result.render_seconds = secondsSince(start);
+            describeRun(report_, device, renderer, result);
+            for (const auto& file : files_.of(frame))
+                if (writePicture(written, file, renderer, result.film, report_, exposure_))
+                    report_.outputs.push_back(file);
+            progress.show(progressText(frame, secondsSince(start), begun));
+        }
+        if (result.stopped_by == Stop::none) result.stopped_by = Stop::samples;
+        return result;
+    }
+
+private:
+    [[nodiscard]] std::string progressText(std::uint32_t frame, double seconds, std::uint32_t begun) const {
+        const double left = seconds / (frame + 1.0 - begun) * static_cast<double>(path_.size() - frame - 1);
+        return fmt::format("frame {}/{}  {:.1f} s  {:.1f} s left", frame + 1, path_.size(), seconds, left);
+    }
+
+    const RenderOptions& options_;
+    const std::vector<PathFrame>& path_;
+    const FrameFiles& files_;
+    RenderReport& report_;
+    double exposure_;
+};
+
+std::string sequenceLine(const RenderReport& report, std::size_t frames) {
+    const std::size_t drawn = report.sequence->frames.size();
+    return fmt::format("{} of {} frames in {:.2f} s, {:.1f} ms each", drawn, frames, report.render_seconds,
+                       1000.0 * report.render_seconds / static_cast<double>(std::max<std::size_t>(drawn, 1)));
+}
+
+/// As asked, with what a sequence chooses where nobody says.
+RenderOptions completed(RenderOptions options, const NamedScene& source) {
+    if (options.outputs.empty()) {
+        options.outputs.emplace_back(source.name + "-%04d.png");
+        const FramePattern pattern(options.outputs.front());
+        for (std::uint32_t frame = 0; frame < options.path->frames; ++frame)
+            requireNoStranger(pattern.of(frame));
+    }
+    if (!options.run.samples) options.run.samples = 1;
+    return options;
+}
+
+}  // namespace
+
+int renderSequence(const RenderOptions& asked) {
+    const Clock::time_point load_start = Clock::now();
+    const NamedScene source = loadScene(asked.source);
+    const Shot shot = chooseShot(source, asked.source.camera, asked.size);
+    const RenderOptions options = completed(asked, source);
+    const std::vector<PathFrame> path = followPath(*options.path, source, shot.camera);
+    const FrameFiles files(options.outputs);
+    requireOwnFrames(options, source.scene, files, options.path->frames);
+    for (const auto& file : files.of(0)) checkWritable(file);
+    if (options.report) checkWritable(*options.report);
+    RenderReport report = beginReport(options, source, shot);
+    report.outputs.clear();
+    report.sequence = SequenceReport{options.path->path, options.path->rate, {}};
+    report.load_seconds = secondsSince(load_start);
+
+    std::optional<ProgressLine> progress(std::in_place, stderr, options.quiet);
+    gpu::Device device(deviceOptions(options, progress));
+    RunSettings run = options.run;
+    run.render.size = shot.size;
+    run.render.moves = true;
+    const RunPlan plan = planRun(device, source.scene, shot.camera, run);
+    notePlan(report, plan);
+    Renderer renderer(device, source.scene, path.front().camera, plan.settings);
+    progress->clear();
+    if (!options.quiet) {
+        warnOfPlan(plan, device.report());
+        printWarnings(source.scene);
+    }
+
+    const std::uint32_t first = options.resume ? files.firstMissing(options.path->frames) : 0;
+    FilesWritten written;
+    const double exposure = options.run.exposure.value_or(source.scene.default_exposure);
+    const LoopResult result =
+        SequenceRun(options, path, files, report, exposure).draw(device, renderer, first, written, *progress);
+    progress.reset();
+    report.statistics = renderer.statistics();
+    report.stopped_by = result.stopped_by;
+    if (!options.quiet) warnOfDoubts(report);
+    writeReport(written, options, report);
+    const std::string line = sequenceLine(report, path.size());
+    if (!options.quiet) printOut(line + "\n");
+    if (result.stopped_by == Stop::interrupt)
+        printError(fmt::format("licht: interrupted: {}; --resume goes on there\n", line));
+    return endRun(written, device);
+}
+
+}  // namespace licht
