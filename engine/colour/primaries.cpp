@@ -14,13 +14,6 @@ dvec3 xyzOf(const dvec2& xy) {
     return {xy.x / xy.y, 1.0, (1.0 - xy.x - xy.y) / xy.y};
 }
 
-/// The luminances of the primaries are those that add up to white.
-dmat3 xyzFromRgb(const Primaries& p) {
-    const dmat3 primaries(xyzOf(p.red), xyzOf(p.green), xyzOf(p.blue));
-    const dvec3 luminances = glm::inverse(primaries) * xyzOf(p.white);
-    return {primaries[0] * luminances.x, primaries[1] * luminances.y, primaries[2] * luminances.z};
-}
-
 dmat3 adaptation(const dvec2& from_white, const dvec2& to_white) {
     const dmat3 cones_from_xyz =
         glm::transpose(dmat3(0.8951, 0.2664, -0.1614, -0.7502, 1.7135, 0.0367, 0.0389, -0.0685, 1.0296));
@@ -39,6 +32,13 @@ bool areRec709(const Primaries& p) {
     };
     return near(p.red, rec709.red) && near(p.green, rec709.green) && near(p.blue, rec709.blue) &&
            near(p.white, rec709.white);
+}
+
+glm::dmat3 xyzFromRgb(const Primaries& p) {
+    const dmat3 primaries(xyzOf(p.red), xyzOf(p.green), xyzOf(p.blue));
+    // The luminances of the primaries are those that add up to white.
+    const dvec3 luminances = glm::inverse(primaries) * xyzOf(p.white);
+    return {primaries[0] * luminances.x, primaries[1] * luminances.y, primaries[2] * luminances.z};
 }
 
 glm::dmat3 rec709FromPrimaries(const Primaries& primaries) {

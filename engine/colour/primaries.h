@@ -14,6 +14,9 @@ struct Primaries {
 /// Whether they are Rec. 709's as far as files give digits.
 bool areRec709(const Primaries& primaries);
 
+/// CIE 1931 XYZ of linear values of these primaries, white of luminance one.
+glm::dmat3 xyzFromRgb(const Primaries& primaries);
+
 /// Linear Rec. 709 from linear values of these primaries, white to white by the Bradford transform (Lam 1985;
 /// ICC.1:2022, annex E). The matrix is not finite where the primaries span no triangle.
 glm::dmat3 rec709FromPrimaries(const Primaries& primaries);

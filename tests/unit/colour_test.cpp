@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "licht/colour/primaries.h"
 #include "licht/colour/transfer.h"
 
 namespace licht {
@@ -41,6 +42,16 @@ TEST(Luminance, WeightsOfRec709) {
     EXPECT_FLOAT_EQ(luminance({0.0F, 1.0F, 0.0F}), 0.7152F);
     EXPECT_FLOAT_EQ(luminance({0.0F, 0.0F, 1.0F}), 0.0722F);
     EXPECT_FLOAT_EQ(luminance(vec3(3.0F)), 3.0F);
+}
+
+TEST(Primaries, XyzOfRec709IsThatOfItsStandard) {
+    const glm::dmat3 xyz_from_rgb = xyzFromRgb(Primaries{});
+    // The matrix of IEC 61966-2-1:1999, to its four digits: X, Y and Z of red, green and blue.
+    const double printed[3][3] = {
+        {0.4124, 0.2126, 0.0193}, {0.3576, 0.7152, 0.1192}, {0.1805, 0.0722, 0.9505}};
+    for (int column = 0; column < 3; ++column)
+        for (int row = 0; row < 3; ++row)
+            EXPECT_NEAR(xyz_from_rgb[column][row], printed[column][row], 0.5e-4) << column << " " << row;
 }
 
 }  // namespace

@@ -1,0 +1,23 @@
+#pragma once
+// How different two pictures look to someone who alternates between them: LDR-FLIP of Andersson, Nilsson,
+// Akenine-Moeller, Oskarsson, Astrom and Fairchild 2020, "FLIP: A Difference Evaluator for Alternating
+// Images".
+#include <numbers>
+
+#include "licht/image/image.h"
+
+namespace licht {
+
+/// Pixels in a degree of the visual field of who looks from 0.7 m at 3840 pixels in 0.7 m, as in the paper.
+inline constexpr double kFlipPixelsPerDegree = 0.7 * (3840.0 / 0.7) * std::numbers::pi / 180.0;
+
+// Both pictures must have the same size and three channels, sRGB-encoded and in [0,1]; a degree must have at
+// least one pixel.
+
+/// How much each pixel's difference is seen, in [0,1]: one channel. 0 where colours are alike.
+Image flipMap(const Image& test, const Image& reference, double pixels_per_degree = kFlipPixelsPerDegree);
+
+/// The mean of that map.
+double flip(const Image& test, const Image& reference, double pixels_per_degree = kFlipPixelsPerDegree);
+
+}  // namespace licht
