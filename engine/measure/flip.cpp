@@ -44,14 +44,18 @@ Image rowsToColumns(const Image& plane, const Weights& weights) {
     const std::size_t radius = weights.size() / 2;
     const auto width = static_cast<std::size_t>(plane.width);
     std::vector<double> row(width + 2 * radius);
+    std::vector<double> sums(width);
     Image result(plane.height, plane.width, 1);
     for (int y = 0; y < plane.height; ++y) {
         for (std::size_t i = 0; i < row.size(); ++i)
             row[i] = static_cast<double>(
                 plane.at(static_cast<int>(std::clamp(i, radius, radius + width - 1) - radius), y, 0));
+        std::fill(sums.begin(), sums.end(), 0.0);
+        // Weight by weight, so that no sum waits for its last term.
+        for (std::size_t k = 0; k < weights.size(); ++k)
+            for (std::size_t x = 0; x < width; ++x) sums[x] += weights[k] * row[x + k];
         for (int x = 0; x < plane.width; ++x)
-            result.at(y, x, 0) =
-                static_cast<float>(std::inner_product(weights.begin(), weights.end(), row.begin() + x, 0.0));
+            result.at(y, x, 0) = static_cast<float>(sums[static_cast<std::size_t>(x)]);
     }
     return result;
 }

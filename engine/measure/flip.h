@@ -11,6 +11,11 @@ namespace licht {
 /// Pixels in a degree of the visual field of who looks from 0.7 m at 3840 pixels in 0.7 m, as in the paper.
 inline constexpr double kFlipPixelsPerDegree = 0.7 * (3840.0 / 0.7) * std::numbers::pi / 180.0;
 
+/// What it takes for a while, in bytes a pixel: of one picture three channels of CIELAB and two of features,
+/// of the other these, its three opponent channels, and a channel of doubles and two of floats while one is
+/// filtered.
+inline constexpr double kFlipBytesPerPixel = 5 * 4 + (5 + 3) * 4 + 8 + 2 * 4;
+
 // Both pictures must have the same size and three channels, sRGB-encoded and in [0,1]; a degree must have at
 // least one pixel.
 

@@ -251,6 +251,9 @@ void addCompare(CLI::App& app, CompareOptions& options) {
     app.footer(
         "relMSE: mean over pixels and channels of (a-b)^2 / (b^2 + 0.01 m^2); a picture, b reference, m its "
         "mean.\n"
+        "FLIP: how much the difference is seen, 0 to 1 (Andersson et al. 2020), from 0.7 m at 3840 pixels in "
+        "0.7 m that\n"
+        "show both at exposure 0 by the plain sRGB curve, clamped to [0,1].\n"
         "R/R, G/G, B/B: the picture's mean over the reference's.\n"
         "Where both files have the layer variance, a z-test compares blocks of 16x16 pixels (block p: the "
         "smallest)\n"

@@ -8,10 +8,13 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
+#include "licht/colour/transfer.h"
 #include "licht/core/error.h"
 #include "licht/core/file.h"
 #include "licht/core/json_text.h"
+#include "licht/core/memory.h"
 #include "licht/image/exr.h"
+#include "licht/measure/flip.h"
 #include "licht/measure/metrics.h"
 #include "samples/licht/commands.h"
 #include "samples/licht/outputs.h"
@@ -38,6 +41,19 @@ std::string attributeOf(const ExrPicture& picture, const std::string& name) {
     const auto found = std::find_if(picture.attributes.begin(), picture.attributes.end(),
                                     [&name](const auto& attribute) { return attribute.first == name; });
     return found == picture.attributes.end() ? std::string() : found->second;
+}
+
+/// As `--tonemap none` shows it at exposure 0, before its codes are rounded.
+Image displayed(Image image) {
+    for (float& value : image.texels) value = srgbFromLinear(std::clamp(value, 0.0F, 1.0F));
+    return image;
+}
+
+double flipAsDisplayed(const MeasuredPicture& picture, const MeasuredPicture& reference) {
+    const double displayed_bytes = 2.0 * 3.0 * sizeof(float);
+    requireMemory((kFlipBytesPerPixel + displayed_bytes) * picture.mean.width * picture.mean.height,
+                  fmt::format("{}: FLIP takes", picture.name));
+    return flip(displayed(picture.mean), displayed(reference.mean));
 }
 
 /// What an attribute says as a number, or null.
@@ -67,6 +83,7 @@ Json comparisonJson(const MeasuredPicture& picture, const Comparison& c) {
     json["trimmed_rel_mse"] = c.trimmed_rel_mse;
     json["mse"] = c.mse;
     json["largest_difference"] = c.largest;
+    json["flip"] = c.flip;
     json["mean_ratio"] = c.mean_ratio;
     json["z_test"] = c.z ? zJson(*c.z) : Json(nullptr);
     return json;
@@ -77,15 +94,16 @@ std::string headText(const MeasuredPicture& reference) {
         fmt::format("reference {}: {}x{}", reference.name, reference.mean.width, reference.mean.height);
     if (!reference.samples.empty()) text += fmt::format(", {} samples", reference.samples);
     text += fmt::format("\ntrimmed: without the worst {} % of the pixels\n", 100.0 * kTrimmedShare);
-    return text + fmt::format("{:>9}{:>9}{:>11}{:>11}{:>11}{:>11}{:>8}{:>8}{:>8}{:>10}{:>10}  {}\n",
-                              "samples", "seconds", "relMSE", "trimmed", "MSE", "largest", "R/R", "G/G",
-                              "B/B", "block p", "whole p", "picture");
+    return text + fmt::format("{:>9}{:>9}{:>11}{:>11}{:>11}{:>11}{:>9}{:>8}{:>8}{:>8}{:>10}{:>10}  {}\n",
+                              "samples", "seconds", "relMSE", "trimmed", "MSE", "largest", "FLIP", "R/R",
+                              "G/G", "B/B", "block p", "whole p", "picture");
 }
 
 std::string rowText(const MeasuredPicture& picture, const Comparison& c) {
     const auto orDash = [](const std::string& text) { return text.empty() ? "-" : text; };
-    std::string row = fmt::format("{:>9}{:>9}{:>11.4g}{:>11.4g}{:>11.4g}{:>11.4g}", orDash(picture.samples),
-                                  orDash(picture.seconds), c.rel_mse, c.trimmed_rel_mse, c.mse, c.largest);
+    std::string row =
+        fmt::format("{:>9}{:>9}{:>11.4g}{:>11.4g}{:>11.4g}{:>11.4g}{:>9.5f}", orDash(picture.samples),
+                    orDash(picture.seconds), c.rel_mse, c.trimmed_rel_mse, c.mse, c.largest, c.flip);
     for (const double ratio : c.mean_ratio) row += fmt::format("{:>8.4f}", ratio);
     row += c.z ? fmt::format("{:>10.2g}{:>10.2g}", c.z->smallest_block_p, c.z->smallest_whole_p)
                : fmt::format("{:>10}{:>10}", "-", "-");
@@ -119,6 +137,7 @@ Comparison comparePictures(const MeasuredPicture& picture, const MeasuredPicture
     result.trimmed_rel_mse = trimmedRelMse(a, b);
     result.mse = mse(a, b);
     result.largest = largestDifference(a, b);
+    result.flip = flipAsDisplayed(picture, reference);
     result.mean_ratio = channelMeans(a);
     const std::vector<double> reference_means = channelMeans(b);
     for (std::size_t c = 0; c < reference_means.size(); ++c) result.mean_ratio[c] /= reference_means[c];

@@ -27,6 +27,7 @@ struct Comparison {
     double trimmed_rel_mse = 0.0;
     double mse = 0.0;
     double largest = 0.0;            ///< difference of two values
+    double flip = 0.0;               ///< of both as an sRGB display shows them
     std::vector<double> mean_ratio;  ///< picture over reference per channel; NaN where both are black
     std::optional<ZTestResult> z;    ///< where both know their variance
 };

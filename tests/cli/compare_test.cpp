@@ -1,6 +1,7 @@
 // licht compare: its numbers, its files, and what it refuses.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -88,8 +89,10 @@ TEST_F(Compare, MeasuresByHandMadeNumbers) {
     EXPECT_NEAR(first.at("mean_ratio")[1].get<double>(), 1.5, 1e-12);
     EXPECT_EQ(first.at("mean_ratio")[2], 1.0);
     EXPECT_TRUE(first.at("z_test").is_null());
+    EXPECT_EQ(first.at("flip"), 0.0) << "all of it is white to a display";
     const json& same = report.at("pictures")[1];
     EXPECT_EQ(same.at("rel_mse"), 0.0);
+    EXPECT_EQ(same.at("flip"), 0.0);
     EXPECT_TRUE(same.at("samples").is_null());
 }
 
@@ -111,6 +114,30 @@ TEST_F(Compare, TestsBlocksWhereBothKnowTheirVariance) {
     EXPECT_LT(pictures[0].at("z_test").at("smallest_block_p").get<double>(), 1e-7);
     EXPECT_EQ(pictures[1].at("z_test").at("agree"), true);
     EXPECT_TRUE(pictures[2].at("z_test").is_null());
+}
+
+TEST_F(Compare, SeesDifferencesAsADisplayShowsThem) {
+    write("white.exr", plain(20, 20, {1.0F, 1.0F, 1.0F}));
+    write("black.exr", plain(20, 20, {0.0F, -1.0F, 0.0F}));
+    write("grey.exr", plain(20, 20, {0.21404114F, 0.21404114F, 0.21404114F}));
+    write("lamp.exr", plain(20, 20, {7.0F, 1.0F, 50.0F}));
+    const Outcome outcome = run({"white.exr", "black.exr", "grey.exr", "lamp.exr", "--json", "out.json"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find(" FLIP "), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find(" 0.96738 "), std::string::npos) << outcome.out;
+    const json pictures = json::parse(folder.read("out.json")).at("pictures");
+    // A difference d of CIELAB's lightness gives d^0.7 = e, and an error of 0.95 e / k up to k = 16.510439,
+    // 0.4 of that of green and blue, and 0.05 of the rest of it above (tests/unit/flip_test.cpp). Black and
+    // white: d = 100. Linear 0.21404114 is the code 0.5: d = 116 - 116 cbrt(0.21404114). Tolerance: three
+    // roundings of floats near one, 6e-8 each, by a slope of 116 / 3 * 0.7 / d below one.
+    const double knee = 16.510439;
+    const double grey = 116.0 - 116.0 * std::cbrt(0.21404114);
+    EXPECT_NEAR(pictures[0].at("flip").get<double>(),
+                0.95 + 0.05 * (std::pow(100.0, 0.7) - knee) / (1.5 * knee), 2e-7);
+    EXPECT_NEAR(pictures[1].at("flip").get<double>(), 0.95 * std::pow(grey, 0.7) / knee, 2e-7);
+    // Both are white there, to what the curve's own roundings make of one.
+    EXPECT_EQ(pictures[2].at("flip"), 0.0);
+    EXPECT_GT(pictures[2].at("rel_mse").get<double>(), 1.0);
 }
 
 TEST_F(Compare, RefusesWhatItCannotCompare) {
@@ -137,9 +164,17 @@ TEST_F(Compare, RefusesWhatItCannotCompare) {
     refuses({"reference.exr", "reference.exr", "--frobnicate"}, "--frobnicate");
 }
 
+TEST_F(Compare, AsksForTheMemoryThatItTakes) {
+    // FLIP takes 92 bytes a pixel, more than all else together; each file's colours are 12.
+    write("large.exr", plain(3000, 1000, {1.0F, 1.0F, 1.0F}));
+    refuses({"large.exr", "large.exr", "--memory-limit", "260M"}, "large.exr: FLIP takes about 263 MiB");
+}
+
 TEST_F(Compare, HelpNamesIt) {
     EXPECT_NE(runLicht(folder, {"--help"}).out.find("compare"), std::string::npos);
-    EXPECT_NE(run({"--help"}).out.find("relMSE"), std::string::npos);
+    const std::string help = run({"--help"}).out;
+    for (const char* word : {"relMSE", "FLIP"})
+        EXPECT_NE(help.find(word), std::string::npos) << word << "\n" << help;
 }
 
 }  // namespace
