@@ -257,7 +257,10 @@ void addCompare(CLI::App& app, CompareOptions& options) {
         "R/R, G/G, B/B: the picture's mean over the reference's.\n"
         "Where both files have the layer variance, a z-test compares blocks of 16x16 pixels (block p: the "
         "smallest)\n"
-        "and the whole (whole p); 'differs' marks a picture for which one is too small for chance.");
+        "and the whole (whole p); 'differs' marks a picture for which one is too small for chance. A file "
+        "drawn with\n"
+        "--denoise ('filtered') has no z-test: its pixels depend on each other, and the test takes them for "
+        "independent.");
 }
 
 void addAccuracy(CLI::App& app, AccuracyOptions& options) {

@@ -65,7 +65,8 @@ Json numberOrNull(const std::string& text) {
 Json pictureJson(const MeasuredPicture& picture) {
     return {{"file", picture.name},
             {"samples", numberOrNull(picture.samples)},
-            {"seconds", numberOrNull(picture.seconds)}};
+            {"seconds", numberOrNull(picture.seconds)},
+            {"filtered", picture.filtered}};
 }
 
 Json zJson(const ZTestResult& z) {
@@ -93,6 +94,7 @@ std::string headText(const MeasuredPicture& reference) {
     std::string text =
         fmt::format("reference {}: {}x{}", reference.name, reference.mean.width, reference.mean.height);
     if (!reference.samples.empty()) text += fmt::format(", {} samples", reference.samples);
+    if (reference.filtered) text += ", filtered";
     text += fmt::format("\ntrimmed: without the worst {} % of the pixels\n", 100.0 * kTrimmedShare);
     return text + fmt::format("{:>9}{:>9}{:>11}{:>11}{:>11}{:>11}{:>9}{:>8}{:>8}{:>8}{:>10}{:>10}  {}\n",
                               "samples", "seconds", "relMSE", "trimmed", "MSE", "largest", "FLIP", "R/R",
@@ -108,6 +110,7 @@ std::string rowText(const MeasuredPicture& picture, const Comparison& c) {
     row += c.z ? fmt::format("{:>10.2g}{:>10.2g}", c.z->smallest_block_p, c.z->smallest_whole_p)
                : fmt::format("{:>10}{:>10}", "-", "-");
     row += "  " + picture.name;
+    if (picture.filtered) row += " (filtered)";
     if (c.z && !c.z->regionsPassed()) row += " (differs)";
     return row + "\n";
 }
@@ -122,8 +125,13 @@ MeasuredPicture readMeasured(const std::filesystem::path& path) {
                                    [](float value) { return !std::isfinite(value); });
     if (bad > 0)
         throw InputError(fmt::format("{}: {} of its values are no finite numbers", path.string(), bad));
-    return {path.string(), std::move(*mean), colourOf(file, "variance."), attributeOf(file, "licht.spp"),
-            attributeOf(file, "licht.seconds")};
+    const std::string denoise = attributeOf(file, "licht.denoise");
+    return {path.string(),
+            std::move(*mean),
+            colourOf(file, "variance."),
+            attributeOf(file, "licht.spp"),
+            attributeOf(file, "licht.seconds"),
+            !denoise.empty() && denoise != "none"};
 }
 
 Comparison comparePictures(const MeasuredPicture& picture, const MeasuredPicture& reference) {
@@ -141,7 +149,8 @@ Comparison comparePictures(const MeasuredPicture& picture, const MeasuredPicture
     result.mean_ratio = channelMeans(a);
     const std::vector<double> reference_means = channelMeans(b);
     for (std::size_t c = 0; c < reference_means.size(); ++c) result.mean_ratio[c] /= reference_means[c];
-    if (picture.variance && reference.variance)
+    // The test takes pixels for independent, which a filter's are not.
+    if (picture.variance && reference.variance && !picture.filtered && !reference.filtered)
         result.z = zTest({a, *picture.variance}, {b, *reference.variance});
     return result;
 }
@@ -160,12 +169,15 @@ int compare(const CompareOptions& options) {
               {"height", reference.mean.height},
               {"trimmed_share", kTrimmedShare},
               {"pictures", Json::array()}};
+    bool filtered = reference.filtered;
     for (const auto& path : options.pictures) {
         const MeasuredPicture picture = readMeasured(path);
         const Comparison comparison = comparePictures(picture, reference);
+        filtered = filtered || picture.filtered;
         text += rowText(picture, comparison);
         json["pictures"].push_back(comparisonJson(picture, comparison));
     }
+    if (filtered) text += "filtered: no z-test, because the pixels of such a picture depend on each other\n";
     if (options.json) {
         const std::string written = jsonText(json);
         writeFile(*options.json, std::as_bytes(std::span(written)));

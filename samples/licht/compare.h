@@ -16,6 +16,7 @@ struct MeasuredPicture {
     Image mean;                     ///< R, G, B
     std::optional<Image> variance;  ///< of the mean, where the file has that layer
     std::string samples, seconds;   ///< empty: the file does not say
+    bool filtered = false;          ///< by --denoise: its pixels depend on each other
 };
 
 /// Throws InputError: not readable as EXR, without R, G and B, or with a value in them that is no finite
@@ -29,7 +30,7 @@ struct Comparison {
     double largest = 0.0;            ///< difference of two values
     double flip = 0.0;               ///< of both as an sRGB display shows them
     std::vector<double> mean_ratio;  ///< picture over reference per channel; NaN where both are black
-    std::optional<ZTestResult> z;    ///< where both know their variance
+    std::optional<ZTestResult> z;    ///< where both know their variance and neither is filtered
 };
 
 /// Throws InputError when the sizes differ.

@@ -140,6 +140,59 @@ TEST_F(Compare, SeesDifferencesAsADisplayShowsThem) {
     EXPECT_GT(pictures[2].at("rel_mse").get<double>(), 1.0);
 }
 
+TEST_F(Compare, FilteredPicturesHaveNoZTest) {
+    ExrPicture picture = plain(32, 16, {1.05F, 1.0F, 1.0F}, 0.01F);
+    write("reference.exr", plain(32, 16, {1.0F, 1.0F, 1.0F}, 0.01F));
+    picture.attributes = {{"licht.denoise", "none"}};
+    write("samples.exr", picture);
+    picture.attributes = {{"licht.denoise", "spatiotemporal"}};
+    write("filtered.exr", picture);
+    const std::string why = "depend on each other";
+
+    const Outcome samples = run({"reference.exr", "samples.exr", "--json", "samples.json"});
+    ASSERT_EQ(samples.exit_code, 0) << samples.err;
+    EXPECT_EQ(samples.out.find("filtered"), std::string::npos) << samples.out;
+    const json all_samples = json::parse(folder.read("samples.json"));
+    EXPECT_EQ(all_samples.at("reference").at("filtered"), false);
+    EXPECT_EQ(all_samples.at("pictures")[0].at("filtered"), false);
+    EXPECT_EQ(all_samples.at("pictures")[0].at("z_test").at("agree"), false);
+
+    const Outcome one = run({"reference.exr", "samples.exr", "filtered.exr", "--json", "one.json"});
+    ASSERT_EQ(one.exit_code, 0) << one.err;
+    EXPECT_NE(one.out.find("samples.exr (differs)\n"), std::string::npos) << one.out;
+    EXPECT_NE(one.out.find("         -         -  filtered.exr (filtered)\n"), std::string::npos) << one.out;
+    EXPECT_NE(one.out.find(why), std::string::npos) << one.out;
+    const json pictures = json::parse(folder.read("one.json")).at("pictures");
+    EXPECT_FALSE(pictures[0].at("z_test").is_null());
+    EXPECT_EQ(pictures[1].at("filtered"), true);
+    EXPECT_TRUE(pictures[1].at("z_test").is_null());
+
+    const Outcome truth = run({"filtered.exr", "samples.exr", "--json", "truth.json"});
+    ASSERT_EQ(truth.exit_code, 0) << truth.err;
+    EXPECT_NE(truth.out.find(", filtered\n"), std::string::npos) << truth.out;
+    EXPECT_NE(truth.out.find(why), std::string::npos) << truth.out;
+    const json filtered_truth = json::parse(folder.read("truth.json"));
+    EXPECT_EQ(filtered_truth.at("reference").at("filtered"), true);
+    EXPECT_EQ(filtered_truth.at("pictures")[0].at("filtered"), false);
+    EXPECT_TRUE(filtered_truth.at("pictures")[0].at("z_test").is_null());
+}
+
+TEST_F(Compare, KnowsWhatTheFilterDrew) {
+    for (const char* how : {"none", "spatiotemporal"}) {
+        const Outcome drawn =
+            runLicht(folder, {"render", "furnace", "--size", "16x16", "--spp", "4", "--aov", "variance",
+                              "--denoise", how, "-o", std::string(how) + ".exr", "--quiet"});
+        ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
+    }
+    const Outcome outcome = run({"none.exr", "none.exr", "spatiotemporal.exr", "--json", "out.json"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const json pictures = json::parse(folder.read("out.json")).at("pictures");
+    EXPECT_EQ(pictures[0].at("filtered"), false);
+    EXPECT_FALSE(pictures[0].at("z_test").is_null());
+    EXPECT_EQ(pictures[1].at("filtered"), true);
+    EXPECT_TRUE(pictures[1].at("z_test").is_null());
+}
+
 TEST_F(Compare, RefusesWhatItCannotCompare) {
     write("reference.exr", plain(8, 8, {1.0F, 1.0F, 1.0F}));
     write("wide.exr", plain(9, 8, {1.0F, 1.0F, 1.0F}));
@@ -173,7 +226,7 @@ TEST_F(Compare, AsksForTheMemoryThatItTakes) {
 TEST_F(Compare, HelpNamesIt) {
     EXPECT_NE(runLicht(folder, {"--help"}).out.find("compare"), std::string::npos);
     const std::string help = run({"--help"}).out;
-    for (const char* word : {"relMSE", "FLIP"})
+    for (const char* word : {"relMSE", "FLIP", "filtered"})
         EXPECT_NE(help.find(word), std::string::npos) << word << "\n" << help;
 }
 
