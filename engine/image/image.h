@@ -29,4 +29,13 @@ struct Image {
     [[nodiscard]] float at(int x, int y, int c) const { return texels[index(x, y, c)]; }
 };
 
+/// The first three of four channels.
+inline Image withoutAlpha(const Image& rgba) {
+    assert(rgba.channels == 4);
+    Image rgb(rgba.width, rgba.height, 3);
+    for (std::size_t i = 0; 3 * i < rgb.texels.size(); ++i)
+        for (std::size_t c = 0; c < 3; ++c) rgb.texels[3 * i + c] = rgba.texels[4 * i + c];
+    return rgb;
+}
+
 }  // namespace licht

@@ -14,13 +14,6 @@
 namespace licht {
 namespace {
 
-Image withoutAlpha(const Image& rgba) {
-    Image rgb(rgba.width, rgba.height, 3);
-    for (std::size_t i = 0; 3 * i < rgb.texels.size(); ++i)
-        for (std::size_t c = 0; c < 3; ++c) rgb.texels[3 * i + c] = rgba.texels[4 * i + c];
-    return rgb;
-}
-
 /// The converged picture of a frame: the mean of two of other samples, whose difference tells its error.
 struct Truth {
     Image mean;

@@ -23,15 +23,6 @@ bool isExr(const std::filesystem::path& path) {
     return lowerCase(path.extension().string()) == ".exr";
 }
 
-/// Display values without alpha.
-Image opaquePicture(const Image& rgba) {
-    Image rgb(rgba.width, rgba.height, 3);
-    for (int y = 0; y < rgb.height; ++y)
-        for (int x = 0; x < rgb.width; ++x)
-            for (int c = 0; c < rgb.channels; ++c) rgb.at(x, y, c) = rgba.at(x, y, c);
-    return rgb;
-}
-
 glm::dvec3 pictureMean(const Film& film) {
     glm::dvec3 sum(0.0);
     for (std::size_t i = 0; i + 3 < film.mean.texels.size(); i += 4)
@@ -168,7 +159,7 @@ bool writePicture(FilesWritten& files, const std::filesystem::path& output, Rend
             writeExr(output, exrPicture(film, report.asked.render.layers, reportAttributes(report)));
         else
             writePng(output,
-                     opaquePicture(renderer.readDisplay(report.asked.tonemap, static_cast<float>(exposure))));
+                     withoutAlpha(renderer.readDisplay(report.asked.tonemap, static_cast<float>(exposure))));
     });
 }
 

@@ -54,7 +54,7 @@ void main() {
             Halves h = halvesOf(kind, d, pixel);
             vec3 x = ofBoth(h.a, h.b, h);
             Part part = partOf(kind, x, h, variances[kind], smooth_, pixel);
-            if (kReprojects) mean.rgb += d * (x - ofThisView(kind, d, pixel));
+            if (kReprojects) mean.rgb += d * moveByPrior(kind, d, h, pixel);
             mean.rgb += d * part.move;
             squared_bias += meanSquare(d) * part.squared_bias;
             error += d * d * part.error;

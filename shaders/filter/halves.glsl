@@ -57,12 +57,14 @@ float varianceBetween(Halves h) { return meanSquare(h.a - h.b) * h.n_a * h.n_b /
 // Both halves, weighed by their samples.
 vec3 ofBoth(vec3 a, vec3 b, Halves h) { return (h.n_a * a + h.n_b * b) / countOf(h); }
 
-// Of this view's samples alone.
-vec3 ofThisView(uint kind, vec3 demodulation, ivec2 pixel) {
+// By how much earlier views move the mean of this view's samples; without any exactly nothing.
+vec3 moveByPrior(uint kind, vec3 demodulation, Halves h, ivec2 pixel) {
     vec3 sum = vec3(0.0);
     if (push.count_a > 0.0) sum += tileTexel(signal_sums, kSumSpread + kHalves * kind, pixel).rgb;
     if (push.count_b > 0.0) sum += tileTexel(signal_sums, kSumSpread + kHalves * kind + 1u, pixel).rgb;
-    return sum / ((push.count_a + push.count_b) * demodulation);
+    vec3 now = sum / ((push.count_a + push.count_b) * demodulation);
+    vec4 a = tileTexel(prior, kPriorSpread + kHalves * kind, pixel), b = tileTexel(prior, kPriorSpread + kHalves * kind + 1u, pixel);
+    return (a.a * (a.rgb - now) + b.a * (b.rgb - now)) / countOf(h);
 }
 
 #endif
