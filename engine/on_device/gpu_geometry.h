@@ -31,6 +31,8 @@ public:
     /// One per baked instance, or of very many one per row of them; one per group of instances of a mesh.
     [[nodiscard]] const std::vector<Draw>& draws() const { return draws_; }
 
+    [[nodiscard]] const gpu::Buffer& vertices() const { return vertices_; }
+
 private:
     gpu::Buffer vertices_, triangle_indices_, instances_, tangents_, colors_, extra_uvs_;
     std::vector<Draw> draws_;

@@ -20,6 +20,8 @@ public:
     void addTo(gpu::SpecConstants& constants) const;
     /// Of the instances.
     [[nodiscard]] const Bounds& topBounds() const { return top_bounds_; }
+    /// Empty where there is no instance.
+    [[nodiscard]] const gpu::Buffer& transforms() const { return instance_transforms_; }
     [[nodiscard]] double buildSeconds() const { return build_seconds_; }
     [[nodiscard]] std::uint32_t dropped() const { return dropped_; }
 

@@ -44,6 +44,11 @@ std::vector<gpu::BoundResource> GpuScene::resources() const {
     return list;
 }
 
+std::vector<gpu::BoundResource> GpuScene::previousResources() const {
+    return {{"PreviousVertices", &geometry_.vertices()},
+            {"PreviousInstanceTransforms", levels_.transforms() ? &levels_.transforms() : &none_}};
+}
+
 void GpuScene::describe(FrameRecord& frame) const {
     geometry_.describe(frame);
     lights_.describe(frame);

@@ -37,6 +37,8 @@ public:
 
     /// Every buffer and image by its name in the shaders.
     [[nodiscard]] std::vector<gpu::BoundResource> resources() const;
+    /// Where its surfaces are, for the frame behind, by names in the shaders.
+    [[nodiscard]] std::vector<gpu::BoundResource> previousResources() const;
     /// What the scene says to every frame: counts, sizes, seeds are the caller's.
     void describe(FrameRecord& frame) const;
     /// The effects, and what else is compiled in: how the BVH is fetched, where instances begin, and so on.

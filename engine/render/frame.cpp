@@ -14,49 +14,78 @@ constexpr std::uint32_t kMostLayerSamples = 4096;
 
 }  // namespace
 
-Frame::Frame(gpu::Device& device, const Programs& programs, const GpuScene& scene,
+Frame::Frame(gpu::Device& device, const Programs& programs, const SceneOnDevice& scene,
              const RenderSettings& settings, const InFlight& in_flight, const gpu::Image* order_sums,
              const gpu::Buffer* tiles)
-    : programs_(programs), scene_(scene), settings_(settings), images_(device, settings.size, settings) {
+    : device_(device),
+      programs_(programs),
+      scene_(scene),
+      settings_(settings),
+      in_flight_(in_flight),
+      tiles_(tiles),
+      images_(device, settings.size, settings) {
     if (order_sums != nullptr) images_.lend("order_sums", *order_sums);
     if (programs.wavefront) wavefront_.emplace(device, *programs.wavefront, settings.size);
-    for (std::size_t slot = 0; slot < InFlight::kSlots; ++slot) {
-        for (std::size_t parity = 0; parity < images_.parities(); ++parity) {
-            std::vector<gpu::BoundResource> resources = scene.resources();
-            for (const gpu::BoundResource& image : images_.resources(parity)) resources.push_back(image);
-            resources.push_back({"FrameBlock", &in_flight[slot].record});
-            resources.push_back({"Counters", &in_flight[slot].counters});
-            resources.push_back({"AdaptiveTiles", tiles != nullptr ? tiles : &in_flight[slot].record});
-            const auto to = [&](const gpu::Program& program) {
-                return gpu::Bindings(device, program, resources);
-            };
-            Bound& bound = bound_.emplace_back();
-            bound.gbuffer = to(programs.gbuffer);
-            bound.accumulate = to(programs.accumulate);
-            if (settings.layers.anyDrawn()) bound.layers = to(programs.layers);
-            if (programs.filter) bound.signals = to(programs.filter->signals);
-            if (programs.history) {
-                bound.reproject = to(programs.history->reproject);
-                bound.edges = to(programs.history->edges);
-                bound.parts = to(programs.history->parts);
-            }
-            if (slot == 0) tonemap_.push_back(to(programs.tonemap));
-            if (wavefront_)
-                wavefront_->bind(std::move(resources));
-            else
-                bound.path = to(programs.path);
-        }
-    }
+    bind();
+    const std::vector<gpu::BoundResource> images = images_.resources(0);
+    for (std::size_t parity = 0; parity < images_.parities(); ++parity)
+        tonemap_.emplace_back(device, programs.tonemap, images_.resources(parity));
     if (!programs.filter) return;
     filter_.emplace(device, *programs.filter, images_, settings);
-    if (programs.history) {
-        const std::vector<gpu::BoundResource> images = images_.resources(images_.parity());
-        fold_ = gpu::Bindings(device, programs.history->fold, images);
-        resolve_ = gpu::Bindings(device, programs.history->resolve, images);
-    }
     const std::array<gpu::BoundResource, 2> shown{
         {{"mean_high", &images_["filtered"]}, {"display_image", &images_["display_image"]}}};
     tonemap_filtered_ = gpu::Bindings(device, programs.tonemap, shown);
+    if (!programs.history) return;
+    fold_ = gpu::Bindings(device, programs.history->fold, images);
+    resolve_ = gpu::Bindings(device, programs.history->resolve, images);
+    if (!settings.scene_moves) return;
+    const std::array gradients{&images_["gradients_even"], &images_["gradients_odd"]};
+    for (std::size_t i = 0; i < spread_.size(); ++i)
+        spread_[i] = gpu::Bindings(device, programs.history->spread,
+                                   std::array<gpu::BoundResource, 2>{{{"gradients_from", gradients[i]},
+                                                                      {"gradients_to", gradients[1 - i]}}});
+}
+
+// What a slot's passes read and write.
+std::vector<gpu::BoundResource> Frame::resources(std::size_t slot, std::size_t parity) const {
+    std::vector<gpu::BoundResource> list = scene_.now().resources();
+    for (const gpu::BoundResource& image : images_.resources(parity)) list.push_back(image);
+    for (const gpu::BoundResource& before : scene_.before().previousResources()) list.push_back(before);
+    list.push_back({"FrameBlock", &in_flight_[slot].record});
+    list.push_back({"Counters", &in_flight_[slot].counters});
+    list.push_back({"AdaptiveTiles", tiles_ != nullptr ? tiles_ : &in_flight_[slot].record});
+    // Gradients are summed an even number of times, so they begin and end in one place.
+    list.push_back({"gradients_from", &images_["gradients_even"]});
+    list.push_back({"gradients_to", &images_["gradients_even"]});
+    return list;
+}
+
+void Frame::bind() {
+    bound_.clear();
+    if (wavefront_) wavefront_->unbind();
+    for (std::size_t slot = 0; slot < InFlight::kSlots; ++slot) {
+        for (std::size_t parity = 0; parity < images_.parities(); ++parity) {
+            std::vector<gpu::BoundResource> list = resources(slot, parity);
+            const auto to = [&](const gpu::Program& program) {
+                return gpu::Bindings(device_, program, list);
+            };
+            Bound& bound = bound_.emplace_back();
+            bound.gbuffer = to(programs_.gbuffer);
+            bound.accumulate = to(programs_.accumulate);
+            if (settings_.layers.anyDrawn()) bound.layers = to(programs_.layers);
+            if (programs_.filter) bound.signals = to(programs_.filter->signals);
+            if (programs_.history) {
+                bound.reproject = to(programs_.history->reproject);
+                bound.edges = to(programs_.history->edges);
+                bound.parts = to(programs_.history->parts);
+                if (settings_.scene_moves) bound.gradient = to(programs_.history->gradient);
+            }
+            if (wavefront_)
+                wavefront_->bind(std::move(list));
+            else
+                bound.path = to(programs_.path);
+        }
+    }
 }
 
 void Frame::begin() {
@@ -67,7 +96,8 @@ void Frame::begin() {
 void Frame::record(gpu::Commands& commands, std::size_t slot, const Slice& slice) const {
     const std::size_t bound = slot * images_.parities() + images_.parity();
     const Bound& on = bound_[bound];
-    if (slice.first) recordGbuffer(commands, {programs_.gbuffer, on.gbuffer}, scene_, images_, slice.push);
+    if (slice.first)
+        recordGbuffer(commands, {programs_.gbuffer, on.gbuffer}, scene_.now(), images_, slice.push);
     followPaths(commands, bound, slice.push);
     if (!slice.last) return;
     commands.dispatch(passName(PassId::accumulate), {programs_.accumulate, on.accumulate}, slice.push,
@@ -77,6 +107,20 @@ void Frame::record(gpu::Commands& commands, std::size_t slot, const Slice& slice
                           pixels());
     if (drawsLayers(slice.push.count_before))
         commands.dispatch(passName(PassId::layers), {programs_.layers, on.layers}, slice.push, pixels());
+}
+
+void Frame::recordGradients(gpu::Commands& commands, std::size_t slot, std::uint32_t last_sample) const {
+    const Bound& on = bound_[slot * images_.parities() + images_.parity()];
+    const gpu::Image& gradients = images_["gradients_even"];
+    const gpu::Threads squares{gradients.extent().width, gradients.extent().height};
+    GradientPush push{last_sample, 1};
+    commands.dispatch(passName(PassId::history_gradient), {programs_.history->gradient, on.gradient}, push,
+                      squares);
+    for (const gpu::Bindings& spread : spread_) {
+        commands.dispatch(passName(PassId::history_spread), {programs_.history->spread, spread}, push,
+                          squares);
+        push.stride *= 2;
+    }
 }
 
 void Frame::recordFold(gpu::Commands& commands, const HalfCounts& counts) const {

@@ -1,12 +1,13 @@
 #pragma once
+#include <array>
 #include <optional>
 #include <vector>
 
 #include "licht/gpu/commands.h"
-#include "licht/on_device/gpu_scene.h"
 #include "licht/render/images.h"
 #include "licht/render/in_flight.h"
 #include "licht/render/programs.h"
+#include "licht/render/scene_on_device.h"
 #include "licht/render/spatial_filter.h"
 #include "licht/render/wavefront.h"
 #include "licht/settings/settings.h"
@@ -25,14 +26,19 @@ struct Slice {
 class Frame {
 public:
     /// `order_sums`, `tiles`: where they are kept, else null. All must outlive it.
-    Frame(gpu::Device& device, const Programs& programs, const GpuScene& scene,
+    Frame(gpu::Device& device, const Programs& programs, const SceneOnDevice& scene,
           const RenderSettings& settings, const InFlight& in_flight, const gpu::Image* order_sums,
           const gpu::Buffer* tiles);
 
+    /// The scene is another, with the same programs. Nothing may be in flight.
+    void bind();
     /// A new frame: what the one before it wrote is the previous.
     void begin();
     /// The passes of a slice.
     void record(gpu::Commands& commands, std::size_t slot, const Slice& slice) const;
+    /// Before everything of a new view whose scene is another: how far the light of the sample that was drawn
+    /// last changed; where settings say that the scene moves.
+    void recordGradients(gpu::Commands& commands, std::size_t slot, std::uint32_t last_sample) const;
     /// Before the first pass of a new view's first sample: keeps what the view before has told, by so many
     /// samples; where settings keep a history.
     void recordFold(gpu::Commands& commands, const HalfCounts& counts) const;
@@ -51,14 +57,18 @@ public:
 
 private:
     struct Bound {
-        gpu::Bindings gbuffer, path, accumulate, layers, signals, reproject, edges, parts;
+        gpu::Bindings gbuffer, path, accumulate, layers, signals, reproject, edges, parts, gradient;
     };
     void followPaths(gpu::Commands& commands, std::size_t bound, const SamplePush& push) const;
+    [[nodiscard]] std::vector<gpu::BoundResource> resources(std::size_t slot, std::size_t parity) const;
     [[nodiscard]] gpu::Threads pixels() const { return {images_.size().x, images_.size().y}; }
 
+    gpu::Device& device_;
     const Programs& programs_;
-    const GpuScene& scene_;
+    const SceneOnDevice& scene_;
     const RenderSettings& settings_;
+    const InFlight& in_flight_;
+    const gpu::Buffer* tiles_;
     Images images_;
     bool begun_ = false;
     std::optional<Wavefront> wavefront_;
@@ -67,6 +77,7 @@ private:
     std::optional<SpatialFilter> filter_;
     gpu::Bindings tonemap_filtered_;
     gpu::Bindings fold_, resolve_;
+    std::array<gpu::Bindings, 2> spread_;  ///< from even to odd, and back
 };
 
 }  // namespace licht

@@ -23,6 +23,15 @@ bool wantsHistory(const RenderSettings& settings) {
     return keepsHistory(settings);
 }
 
+bool wantsGradients(const RenderSettings& settings) {
+    return keepsHistory(settings) && settings.scene_moves;
+}
+
+/// Whole texels.
+uvec2 shrunk(uvec2 size, std::uint32_t by) {
+    return {(size.x + by - 1) / by, (size.y + by - 1) / by};
+}
+
 constexpr auto kTable = std::to_array<ImageRow>({
     {"gbuffer", VK_FORMAT_R32G32B32A32_UINT, Target::color, Lifetime::frame, nullptr},
     {"depth", VK_FORMAT_D32_SFLOAT, Target::depth, Lifetime::frame, nullptr},
@@ -36,6 +45,8 @@ constexpr auto kTable = std::to_array<ImageRow>({
     {"signal_sums", kFloat4, Target::none, Lifetime::history, wantsSignals, kSumTiles},
     {"history", kFloat4, Target::none, Lifetime::history, wantsHistory, kHistoryTiles},
     {"prior", kFloat4, Target::none, Lifetime::history, wantsHistory, kPriorTiles},
+    {"gradients_even", kFloat4, Target::none, Lifetime::frame, wantsGradients, 1, kGradientSide},
+    {"gradients_odd", kFloat4, Target::none, Lifetime::frame, wantsGradients, 1, kGradientSide},
     {"edge_parts", VK_FORMAT_R32_SFLOAT, Target::none, Lifetime::history, wantsHistory, kEdgeTiles},
     {"unresolved", kFloat4, Target::none, Lifetime::frame, wantsHistory},
     {"unresolved_error", kFloat4, Target::none, Lifetime::frame, wantsHistory},
@@ -101,11 +112,12 @@ Images::Images(gpu::Device& device, uvec2 size, const RenderSettings& settings,
         const uvec2 grid = row.tiles == 1 ? uvec2(1)
                                           : tileGrid(device, size, row.tiles, "pictures for the filter",
                                                      "a smaller picture or --denoise none");
+        const uvec2 extent = grid * shrunk(size, row.shrink);
         const bool pair = row.lifetime == Lifetime::ping_pong;
         pairs_ = pairs_ || pair;
         for (std::size_t i = 0; i < (pair ? 2U : 1U); ++i)
-            entry.images[i] = gpu::Image(device, std::string(row.name), {grid.x * size.x, grid.y * size.y},
-                                         row.format, usageOf(row.target));
+            entry.images[i] = gpu::Image(device, std::string(row.name), {extent.x, extent.y}, row.format,
+                                         usageOf(row.target));
     }
 }
 

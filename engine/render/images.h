@@ -29,6 +29,7 @@ struct ImageRow {
     Lifetime lifetime;
     bool (*wanted)(const RenderSettings&);  ///< null: always
     std::uint32_t tiles = 1;                ///< pictures that stand side by side in it
+    std::uint32_t shrink = 1;               ///< a texel for so many pixels a side
 };
 
 /// All that a renderer can call for, with the images of layers, which follow from theirs.

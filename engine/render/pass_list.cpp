@@ -22,6 +22,8 @@ constexpr auto kPasses = std::to_array<PassInfo>({
     {PassId::accumulate, "accumulate", false},
     {PassId::layers, "layers", false},
     {PassId::signals, "signals", false},
+    {PassId::history_gradient, "history gradient", false},
+    {PassId::history_spread, "history spread", false},
     {PassId::history_fold, "history fold", false},
     {PassId::history_reproject, "history reproject", false},
     {PassId::history_edges, "history edges", false},

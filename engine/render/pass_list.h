@@ -23,6 +23,8 @@ enum class PassId {
     accumulate,
     layers,
     signals,
+    history_gradient,
+    history_spread,
     history_fold,
     history_reproject,
     history_edges,

@@ -40,6 +40,7 @@ gpu::SpecConstants programConstants(const GpuScene& scene, const RenderSettings&
     constants[kConstantBlueBits] = settings.blue_bits;
     constants[kConstantSignals] = keepsSignals(settings) ? 1U : 0U;
     constants[kConstantReprojects] = keepsHistory(settings) ? 1U : 0U;
+    constants[kConstantSceneMoves] = settings.scene_moves ? 1U : 0U;
     constants[kConstantSpatial] = settings.denoise == Denoise::spatiotemporal ? 1U : 0U;
     constants[kConstantOrders] = settings.orders ? settings.bounces + 1U : 0U;
     if (settings.all_effects) {
@@ -63,7 +64,7 @@ Programs::Programs(gpu::Device& device, const gpu::SpecConstants& constants, con
         path = gpu::Program::compute(device, "path", path_comp, with_paths);
     }
     if (keepsSignals(settings)) filter.emplace(device, constants);
-    if (keepsHistory(settings)) history.emplace(device, constants);
+    if (keepsHistory(settings)) history.emplace(device, constants, settings.scene_moves);
     if (settings.layers.anyDrawn()) layers = gpu::Program::compute(device, "layers", aov_comp, constants);
 }
 

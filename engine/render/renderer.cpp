@@ -13,7 +13,6 @@
 #include "licht/core/error.h"
 #include "licht/film/develop.h"
 #include "licht/gpu/upload_image.h"
-#include "licht/on_device/gpu_scene.h"
 #include "licht/render/adaptive_rounds.h"
 #include "licht/render/frame.h"
 #include "licht/render/images.h"
@@ -21,8 +20,8 @@
 #include "licht/render/order_sums.h"
 #include "licht/render/pass_list.h"
 #include "licht/render/programs.h"
+#include "licht/render/scene_on_device.h"
 #include "licht/render/view.h"
-#include "licht/shared/effects.h"
 #include "licht/shared/frame.h"
 
 namespace licht {
@@ -31,15 +30,6 @@ namespace {
 // A submission that runs longer than this meets the watchdogs of desktop systems (about two seconds) on a
 // slow moment.
 constexpr double kSliceSeconds = 0.1;
-
-Effects effectsOf(const Scene& scene, const RenderSettings& settings) {
-    Effects effects = settings.all_effects ? allEffects() : detectEffects(scene);
-    if (settings.flatten_instances) {
-        effects.on[kEffectInstances] = false;
-        effects.evidence[kEffectInstances].clear();
-    }
-    return effects;
-}
 
 // A size that memory will not do is said before the scene is brought to the device.
 gpu::Device& withRoom(gpu::Device& device, const RenderSettings& settings) {
@@ -51,20 +41,18 @@ gpu::Device& withRoom(gpu::Device& device, const RenderSettings& settings) {
 }  // namespace
 
 struct Renderer::State {
-    State(gpu::Device& d, const Scene& scene, const Camera& c, const RenderSettings& s)
+    State(gpu::Device& d, const Scene& first, const Camera& c, const RenderSettings& s)
         : device(withRoom(d, s)),
           settings(s),
           camera(c),
-          effects(effectsOf(scene, s)),
           upload_start(Clock::now()),
-          gpu_scene(d, scene, effects,
-                    {s.direct, s.storage_buffers, s.bvh_quality, s.lights, s.environment_sampling}),
+          scene(d, first, effectsOf(first, s), settings),
           in_flight(d) {
-        statistics.bvh_seconds = gpu_scene.bvhSeconds();
-        statistics.geometry_bytes = gpu_scene.geometryBytes();
+        statistics.bvh_seconds = scene.now().bvhSeconds();
+        statistics.geometry_bytes = scene.now().geometryBytes();
         statistics.upload_seconds = secondsSince(upload_start) - statistics.bvh_seconds;
         const Clock::time_point start = Clock::now();
-        programs.emplace(device, programConstants(gpu_scene, settings), settings);
+        programs.emplace(device, programConstants(scene.now(), settings), settings);
         resize(settings.size);
         runEveryProgramOnce();
         statistics.pipeline_seconds = secondsSince(start);
@@ -78,7 +66,7 @@ struct Renderer::State {
     void changeView();
     void forgetSamples();
     /// What a new view's first sample does beside the others: before its passes, and behind them.
-    void recordBefore(gpu::Commands& commands);
+    void recordBefore(gpu::Commands& commands, std::size_t slot);
     void recordBehind(gpu::Commands& commands, std::size_t slot, std::uint32_t sample_index);
     void foldOrders();
     [[nodiscard]] bool filters() const { return keepsSignals(settings); }
@@ -96,9 +84,8 @@ struct Renderer::State {
     gpu::Device& device;
     RenderSettings settings;
     Camera camera;
-    Effects effects;
     Clock::time_point upload_start;
-    GpuScene gpu_scene;
+    SceneOnDevice scene;
     InFlight in_flight;
     std::optional<Programs> programs;
     std::optional<OrderSums> order_sums;
@@ -110,6 +97,7 @@ struct Renderer::State {
     std::uint32_t folded_samples = 0;    ///< of the history, into order_sums
     std::uint32_t earlier_samples = 0;   ///< of views before this one, since the last cut
     bool fresh = true;                   ///< there is none that this one is told of
+    bool changed = false;                ///< the scene is another than that of the view before
     std::optional<HalfCounts> untold;    ///< samples of the view before that "history" does not hold yet
     gpu::Image folded_mean;              ///< of all rounds, for the display
     gpu::Bindings folded_bindings;
@@ -127,8 +115,9 @@ void Renderer::State::runEveryProgramOnce() {
         frame->record(commands, slot, slice);
         frame->recordDisplay(commands, TonemapPush{});
         if (keepsHistory(settings)) {
+            if (settings.scene_moves) frame->recordGradients(commands, slot, 0);
             frame->recordFold(commands, {1, 1});
-            frame->recordReproject(commands, slot, {0, 1});
+            frame->recordReproject(commands, slot, {0, 1, 0});
         }
         if (keepsSignals(settings)) frame->recordFilter(commands, {1, 1}, false);
     });
@@ -144,10 +133,10 @@ void Renderer::State::resize(uvec2 size) {
     if (settings.orders || settings.clamp > 0.0F)
         order_sums.emplace(device, size, settings.orders ? settings.bounces + 1U : 0U, settings.clamp > 0.0F);
     if (settings.adaptive) rounds.emplace(device, size, settings.first_sample);
-    frame.emplace(device, *programs, gpu_scene, settings, in_flight,
-                  order_sums ? &order_sums->image() : nullptr, rounds ? &rounds->records() : nullptr);
+    frame.emplace(device, *programs, scene, settings, in_flight, order_sums ? &order_sums->image() : nullptr,
+                  rounds ? &rounds->records() : nullptr);
     restart();
-    view = makeView(camera, size, gpu_scene.bounds());
+    view = makeView(camera, size, scene.now().bounds());
     previous_view = view;
 }
 
@@ -159,7 +148,7 @@ FrameRecord Renderer::State::frameRecord() const {
     record.roulette_start = settings.roulette_start;
     record.seed = settings.seed;
     record.clamp_limit = settings.clamp;
-    gpu_scene.describe(record);
+    scene.now().describe(record);
     return record;
 }
 
@@ -204,7 +193,7 @@ void Renderer::renderSample() {
         slice.first = push.first_row == 0;
         slice.last = push.first_row + push.row_count == s.settings.size.y;
         const std::size_t slot = s.in_flight.begin(record);
-        if (slice.first) s.recordBefore(s.in_flight.commands(slot));
+        if (slice.first) s.recordBefore(s.in_flight.commands(slot), slot);
         s.frame->record(s.in_flight.commands(slot), slot, slice);
         if (slice.last) s.recordBehind(s.in_flight.commands(slot), slot, push.sample_index);
         s.in_flight.submit(slot);
@@ -219,15 +208,18 @@ void Renderer::renderSample() {
     }
 }
 
-void Renderer::State::recordBefore(gpu::Commands& commands) {
-    if (untold) frame->recordFold(commands, *untold);
+void Renderer::State::recordBefore(gpu::Commands& commands, std::size_t slot) {
+    if (!untold) return;
+    if (changed) frame->recordGradients(commands, slot, firstSample() - 1);
+    frame->recordFold(commands, *untold);
     untold.reset();
 }
 
 void Renderer::State::recordBehind(gpu::Commands& commands, std::size_t slot, std::uint32_t sample_index) {
     if (!keepsHistory(settings) || samples > 0) return;
-    frame->recordReproject(commands, slot, {sample_index, fresh ? 1U : 0U});
+    frame->recordReproject(commands, slot, {sample_index, fresh ? 1U : 0U, changed ? 1U : 0U});
     fresh = false;
+    changed = false;
 }
 
 void Renderer::State::foldOrders() {
@@ -287,11 +279,17 @@ void Renderer::State::restart() {
     forgetSamples();
     earlier_samples = 0;
     fresh = true;
+    changed = false;
     untold.reset();
 }
 
 void Renderer::State::changeView() {
     if (!settings.moves) return restart();
+    if (!changed && scene.moved()) {
+        in_flight.finish();
+        scene.rest();
+        frame->bind();
+    }
     if (samples > 0 && keepsHistory(settings)) untold = halvesOf(firstSample(), samples);
     earlier_samples += samples;
     forgetSamples();
@@ -310,7 +308,7 @@ void Renderer::State::forgetSamples() {
 
 void Renderer::setCamera(const Camera& camera, ViewChange change) {
     State& s = *state_;
-    const ViewRecord view = makeView(camera, s.settings.size, s.gpu_scene.bounds());
+    const ViewRecord view = makeView(camera, s.settings.size, s.scene.now().bounds());
     s.camera = camera;
     const bool same = std::memcmp(&view, &s.view, sizeof(view)) == 0;
     s.view = view;
@@ -318,6 +316,23 @@ void Renderer::setCamera(const Camera& camera, ViewChange change) {
         s.restart();
     else if (!same)
         s.changeView();
+}
+
+void Renderer::setScene(const Scene& scene, ViewChange change) {
+    State& s = *state_;
+    assert(s.settings.scene_moves);
+    finish();
+    const SceneChange how = s.scene.replace(scene, !s.changed);
+    if (how == SceneChange::other) {
+        s.programs.emplace(s.device, programConstants(s.scene.now(), s.settings), s.settings);
+        s.resize(s.settings.size);
+        s.runEveryProgramOnce();
+        return;
+    }
+    s.frame->bind();
+    if (change == ViewChange::cut) return s.restart();
+    s.changed = !s.fresh;
+    s.changeView();
 }
 
 void Renderer::resize(uvec2 size) {
@@ -396,7 +411,7 @@ std::vector<LightBatch> Renderer::lightBatches() const {
 }
 
 const Effects& Renderer::effects() const {
-    return state_->effects;
+    return state_->scene.effects();
 }
 
 RenderStatistics Renderer::statistics() const {

@@ -41,6 +41,11 @@ public:
 
     /// Moves the camera; the picture starts anew when the view differs, with what filters keep of it.
     void setCamera(const Camera& camera, ViewChange change = ViewChange::motion);
+    /// With settings.scene_moves: the scene is another from the next sample on. Where it has the same
+    /// instances of meshes of the same sizes and as many materials, they have moved or changed; otherwise,
+    /// and where it calls for effects that are not compiled, all begins anew. Throws InputError as the
+    /// constructor does.
+    void setScene(const Scene& scene, ViewChange change = ViewChange::motion);
     /// Changes the picture's size; the history starts anew.
     void resize(uvec2 size);
 

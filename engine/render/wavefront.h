@@ -25,6 +25,8 @@ public:
 
     /// One more set of resources that record() may choose: those of the scene, the images and the frame.
     void bind(std::vector<gpu::BoundResource> resources);
+    /// Before other resources take the place of those.
+    void unbind() { bound_.clear(); }
 
     /// The passes of a slice, bound to the resources that came in that place. `by_bounce`: timed by the
     /// bounce, so that each order of light has its time.

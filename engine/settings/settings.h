@@ -31,6 +31,7 @@ struct RenderSettings {
     bool moves =
         false;  ///< the view will change: the next one has other samples, whose noise would otherwise
                 ///< stand before what moves; and with denoise it is told what this one found
+    bool scene_moves = false;  ///< and with the view the scene may change (Renderer::setScene)
     Layering layering = Layering::view;
     Energy energy = Energy::multiple;
     bool orders = false;    ///< keep a layer per order T^i Le

@@ -105,13 +105,21 @@ bool takesTriangles(const std::string& source) {
     });
 }
 
-NamedScene loadNamedScene(const SceneRequest& request) {
+bool moves(const NamedScene& source) {
+    const auto& scenes = builtinScenes();
+    return source.builtin && std::any_of(scenes.begin(), scenes.end(), [&](const BuiltinScene& scene) {
+               return scene.name == source.name && scene.moves;
+           });
+}
+
+NamedScene loadNamedScene(const SceneRequest& request, double seconds) {
     const std::string& source = request.scene;
     const std::uint64_t triangles = request.triangles;
     if (triangles > 0 && !takesTriangles(source))
         throw InputError(fmt::format("--triangles: '{}' has triangles of its own; a count is for: {}", source,
                                      scenesThatCount()));
-    if (auto builtin = makeBuiltinScene(source, triangles)) return {std::move(*builtin), source, true};
+    if (auto builtin = makeBuiltinScene(source, triangles, seconds))
+        return {std::move(*builtin), source, true};
     const std::filesystem::path path(source);
     const std::string ending = lowerCase(path.extension().string());
     if (ending != ".gltf" && ending != ".glb") refuseScene(source);
@@ -141,8 +149,8 @@ void strengthenSky(Scene& scene, double factor) {
 
 }  // namespace
 
-NamedScene loadScene(const SceneRequest& request) {
-    NamedScene source = loadNamedScene(request);
+NamedScene loadScene(const SceneRequest& request, double seconds) {
+    NamedScene source = loadNamedScene(request, seconds);
     Scene& scene = source.scene;
     if (request.environment) {
         std::size_t replaced = 0;

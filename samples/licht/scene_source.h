@@ -18,11 +18,15 @@ struct NamedScene {
     std::string name;  ///< built-in name, or the file's name without folder and ending
     bool builtin = false;
 };
-NamedScene loadNamedScene(const SceneRequest& request);
+NamedScene loadNamedScene(const SceneRequest& request, double seconds = 0.0);
+
+/// Whether it is another at another time.
+bool moves(const NamedScene& source);
 
 /// The scene as asked for, with its sky. A scene in which nothing gives light gets a neutral sky, unless a
 /// sky was asked for; a note says so.
-NamedScene loadScene(const SceneRequest& request);
+/// `seconds`: when, where it moves.
+NamedScene loadScene(const SceneRequest& request, double seconds = 0.0);
 
 /// Of the scene's cameras the one of that number or, where there is none, of that node's or its own name.
 std::optional<std::size_t> findCamera(const Scene& scene, const std::string& wanted);

@@ -18,12 +18,15 @@ struct BuiltinScene {
     std::string_view name;
     std::string_view meaning;     ///< one line for --help
     std::uint64_t triangles = 0;  ///< how many it has unless asked for another count; 0: it takes no count
+    bool moves = false;           ///< it is another at another time
 };
 
-/// cornell, furnace, gallery, terrain, spheres, lamps, meadow, empty.
+/// cornell, furnace, gallery, terrain, spheres, lamps, meadow, moving, empty.
 const std::vector<BuiltinScene>& builtinScenes();
 
-/// The scene of that name, or nullopt. `triangles` is heeded by scenes that take a count; 0: their own.
-std::optional<Scene> makeBuiltinScene(std::string_view name, std::uint64_t triangles = 0);
+/// The scene of that name, or nullopt. `triangles` is heeded by scenes that take a count; 0: their own;
+/// `seconds` by those that move.
+std::optional<Scene> makeBuiltinScene(std::string_view name, std::uint64_t triangles = 0,
+                                      double seconds = 0.0);
 
 }  // namespace licht

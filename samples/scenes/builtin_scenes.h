@@ -11,6 +11,8 @@ Scene makeFurnace();
 Scene makeGallery();
 Scene makeEmpty();
 Scene makeMeadow();
+/// As it is at that time.
+Scene makeMoving(double seconds);
 /// kFewestTriangles to kMostTriangles, to within 1 %.
 Scene makeTerrain(std::uint64_t triangles);
 Scene makeSpheres(std::uint64_t triangles);

@@ -8,6 +8,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = kEffectGlossy) const bool kGlossy = true;
 layout(push_constant) uniform Push { ReprojectPush push; };
 layout(rgba32f, binding = kBindingSampleSignals) uniform readonly image2D sample_signals;
+layout(rgba32f, binding = kBindingGradientsFrom) uniform readonly image2D gradients_from;
 layout(rgba32f, binding = kBindingPrior) uniform writeonly image2D prior;
 
 struct Told {
@@ -22,6 +23,19 @@ void store(uint kind, ivec2 pixel, Told told) {
     imageStore(prior, tilePlace(imageSize(prior), frame.view.size, tile, uvec2(pixel)), told.a);
     imageStore(prior, tilePlace(imageSize(prior), frame.view.size, tile + 1u, uvec2(pixel)), told.b);
 }
+
+// What share of the light around a pixel of the view before has changed; 0 where that may as well be noise.
+float changeAround(vec2 place) {
+    if (!kSceneMoves || push.changed == 0u) return 0.0;
+    ivec2 square = clamp(ivec2(place) / int(kGradientSide), ivec2(0), imageSize(gradients_from) - 1);
+    vec4 gradient = imageLoad(gradients_from, square);
+    const float kStandardErrors = 2.0;
+    return gradient.x * gradient.x > kStandardErrors * kStandardErrors * gradient.y ? min(abs(gradient.x) / gradient.z, 1.0) : 0.0;
+}
+
+// Old light that is wrong by a share r of itself counts as so many of n samples: by n r^2 over a sample's own squared error, which the filter takes to about a
+// hundredth of the light's square.
+float countAfterChange(float n, float share) { return n / (1.0 + 100.0 * n * share * share); }
 
 Told toldAround(uint kind, Wanted wanted, vec2 place) {
     uint tile = kPriorSpread + kHalves * kind;
@@ -39,7 +53,13 @@ Told toldAround(uint kind, Wanted wanted, vec2 place) {
         b += w * vec4(t_b.a * t_b.rgb, t_b.a);
         weights += w;
     }
-    return Told(vec4(a.rgb / max(a.a, 1e-6), a.a / max(weights, 1e-6)), vec4(b.rgb / max(b.a, 1e-6), b.a / max(weights, 1e-6)));
+    float n_a = a.a / max(weights, 1e-6), n_b = b.a / max(weights, 1e-6);
+    if (kSceneMoves) {
+        float share = changeAround(place);
+        n_a = countAfterChange(n_a, share);
+        n_b = countAfterChange(n_b, share);
+    }
+    return Told(vec4(a.rgb / max(a.a, 1e-6), n_a), vec4(b.rgb / max(b.a, 1e-6), n_b));
 }
 
 // Where in the view before, in pixels, the point was; the middle of the pixel beside it has moved as far, whatever the jitter.
@@ -76,7 +96,7 @@ void main() {
     Hit hit = gbufferHit(pixel);
     if (push.fresh == 0u && hit.instance != kNoIndex) {
         vec2 jitter = cameraJitter(push.sample_index, frame.seed);
-        vec3 position = hitPosition(hit);
+        vec3 position = previousPosition(hit);
         float depth = depthIn(frame.previous_view, position);
         if (depth > 0.0) {
             const float kOffPlane = 0.01;  // of the distance

@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 // Follows one path a pixel as path.comp does and writes down the rays that it traces, for measuring them alone.
 #include "camera/gbuffer.glsl"
-#include "path/path.glsl"
+#include "path/unwatched.glsl"
 #include "shared/bindings.h"
 #include "shared/dimensions.h"
 #include "shared/frame.h"
@@ -20,12 +20,6 @@ layout(std430, binding = kFirstFreeBinding + 4u) writeonly buffer SecondBounceRa
 layout(std430, binding = kFirstFreeBinding + 5u) writeonly buffer GlossyRays { RayRecord glossy_rays[]; };
 
 const RayRecord kNoRay = RayRecord(vec3(0.0), 0.0, vec3(0.0, 0.0, 1.0), -1.0);
-
-void onLight(uvec2 pixel, uint order, uint way, vec3 kept, vec3 lost) {}
-void onRays(uvec2 pixel, uint order, uint rays) {}
-void onFirstVertex(uvec2 pixel, Surface s, vec3 wo_local) {}
-void onSecondVertex(uvec2 pixel, float distance_) {}
-void onFirstWay(uvec2 pixel, uint way, vec3 share_of_spread) {}
 
 RayRecord recordOf(RayQuery ray) { return RayRecord(ray.origin, ray.t_min, ray.direction, ray.t_max); }
 

@@ -7,6 +7,11 @@
 #include "pure/tiles.glsl"
 #include "shared/signals.h"
 
+layout(constant_id = kConstantSceneMoves) const bool kSceneMoves = false;
+layout(std430, binding = kBindingPreviousVertices) readonly buffer PreviousVertices { VertexRecord previous_vertices[]; };
+layout(std430, binding = kBindingPreviousInstanceTransforms) readonly buffer PreviousInstanceTransforms {
+    InstanceTransformRecord previous_instance_transforms[];
+};
 layout(rgba32f, binding = kBindingHistory) uniform readonly image2D history;
 
 // What is looked for in the history.
@@ -17,6 +22,20 @@ struct Wanted {
     float reach;     // metres that its plane may be off
     float mirrored;  // metres to what it mirrors as sharply as a picture; 0: it does not
 };
+
+vec3 previousPoint(uint instance, uint vertex) {
+    vec3 point = previous_vertices[vertex].position;
+    if (!kInstances || instance < kBakedInstances) return point;
+    InstanceTransformRecord t = previous_instance_transforms[instance - kBakedInstances];
+    return vec3(dot(t.world_x, point), dot(t.world_y, point), dot(t.world_z, point)) + vec3(t.pivot_x, t.pivot_y, t.pivot_z);
+}
+
+// Where what was hit was in the view before: by the vertices and the transform that it had.
+vec3 previousPosition(Hit hit) {
+    if (!kSceneMoves) return hitPosition(hit);
+    uvec3 v = triangleVertices(hit.instance, hit.primitive);
+    return (1.0 - hit.b1 - hit.b2) * previousPoint(hit.instance, v.x) + hit.b1 * previousPoint(hit.instance, v.y) + hit.b2 * previousPoint(hit.instance, v.z);
+}
 
 vec4 historyAt(uint tile, ivec2 pixel) { return imageLoad(history, tilePlace(imageSize(history), frame.view.size, tile, uvec2(pixel))); }
 

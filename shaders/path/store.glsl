@@ -1,7 +1,7 @@
 // One sample of a pixel, and what is counted beside it.
 #ifndef LICHT_PATH_STORE_GLSL
 #define LICHT_PATH_STORE_GLSL
-#include "path/adaptive.glsl"
+#include "path/address.glsl"
 #include "path/path.glsl"
 #include "pure/finite.glsl"
 #include "shared/bindings.h"
@@ -10,17 +10,6 @@
 
 layout(rgba32f, binding = kBindingRadiance) uniform writeonly image2D radiance_image;
 layout(std430, binding = kBindingCounters) buffer Counters { CounterRecord counters; };
-
-const uint kSeedOfSecondHalf = 0x9e3779b9u;  // golden ratio: far from seeds that people type
-
-SampleAddress sampleAddress(uvec2 pixel, uint frame_index) {
-    SampleAddress address = SampleAddress(pixel, sampleIndexOf(pixel, frame.view.size.x, frame_index), frame.seed);
-    if (!kSignals) return address;
-    // Two sequences in turn, so that the halves of a pixel's samples are independent.
-    address.seed ^= (address.index & 1u) * kSeedOfSecondHalf;
-    address.index >>= 1u;
-    return address;
-}
 
 // Beside the rays, which are counted where they are traced.
 void storeCounts(PathCounts counts) {

@@ -55,6 +55,15 @@ LICHT_CONSTANT uint kEdgeMark = kEdgeParts;  // 1: at an edge
 LICHT_CONSTANT uint kEdgeTiles = kEdgeMark + 1u;
 LICHT_CONSTANT int kEdgeSelf = 4;
 
+// How far the light changed, in gradients_even and gradients_odd: a texel for a square of so many pixels a side. X: change, Y: its square, Z: the larger of the
+// light before and now, W: 1; sums of them over the texels around.
+LICHT_CONSTANT uint kGradientSide = 5u;
+
+struct GradientPush {
+    uint sample_index;  // that was drawn last
+    uint stride;        // of sums
+};
+
 // Push constants of the filter's passes.
 struct FilterPush {
     uvec2 size;         // of the picture
@@ -68,6 +77,7 @@ struct FilterPush {
 struct ReprojectPush {
     uint sample_index;  // of the view's first sample
     uint fresh;         // 1: there is no history
+    uint changed;       // 1: the scene is another than that of the view before, and gradients say how far
 };
 
 LICHT_SHARED_END
