@@ -34,6 +34,8 @@ GpuLights::GpuLights(Uploads& uploads, const Scene& scene, const Effects& effect
     for (LightRecord& light : table.lights)
         if (isShape(light)) light.instance = order.device_instance[light.instance];
     uploadTable(uploads, table);
+    const bool by_tree = tree_lights_ > 0 || (options.changes && options.choice == LightChoice::tree);
+    lights_by_ = by_tree ? LightChoice::tree : LightChoice::power;
     uploadEnvironment(uploads, present ? &*scene.environment : nullptr, drawn);
     first_light_ = std::move(table.first_light);
 }
@@ -41,7 +43,6 @@ GpuLights::GpuLights(Uploads& uploads, const Scene& scene, const Effects& effect
 void GpuLights::uploadTable(Uploads& uploads, const LightTable& table) {
     light_slots_ = static_cast<uint>(table.alias.size());
     tree_lights_ = table.tree_lights;
-    lights_by_ = tree_lights_ > 0 ? LightChoice::tree : LightChoice::power;
     first_sun_ = table.first_sun;
     suns_ = table.suns;
     environment_light_ = table.environment_light;

@@ -23,6 +23,7 @@ public:
         DirectLight direct;
         LightChoice choice;
         EnvironmentSampling environment_sampling;
+        bool changes;  ///< a tree may come, so programs look for one
     };
 
     GpuLights() = default;

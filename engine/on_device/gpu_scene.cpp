@@ -14,7 +14,7 @@ GpuScene::GpuScene(gpu::Device& device, const Scene& scene, const Effects& effec
     const InstanceOrder order = orderInstances(scene, effects);
     requireRoom(device, sizeOnDevice(scene, order), effects);
     lights_ = GpuLights(uploads, scene, effects, order,
-                        {options.direct, options.lights, options.environment_sampling});
+                        {options.direct, options.lights, options.environment_sampling, options.changes});
     const std::uint64_t before = uploads.bytes();
     {
         const FlatGeometry flat = flattenGeometry(scene, effects, order, lights_.firstLights());

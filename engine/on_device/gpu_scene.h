@@ -27,6 +27,7 @@ public:
         BvhQuality bvh_quality = BvhQuality::balanced;
         LightChoice lights = LightChoice::tree;
         EnvironmentSampling environment_sampling = EnvironmentSampling::inversion;
+        bool changes = false;  ///< the same programs will draw it with more or fewer lights
     };
 
     /// Throws InputError, with the numbers, where the scene is larger than the device's buffers may be.

@@ -34,7 +34,7 @@ std::uint32_t pathsPerThread(const gpu::Device& device, const RenderSettings& se
 
 }  // namespace
 
-gpu::SpecConstants programConstants(const GpuScene& scene, const RenderSettings& settings) {
+gpu::SpecConstants programConstants(const SceneOnDevice& scene, const RenderSettings& settings) {
     gpu::SpecConstants constants = scene.constants();
     constants.merge(settingConstants(settings));
     constants[kConstantBlueBits] = settings.blue_bits;

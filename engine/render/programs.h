@@ -2,8 +2,8 @@
 #include <optional>
 
 #include "licht/gpu/program.h"
-#include "licht/on_device/gpu_scene.h"
 #include "licht/render/reprojection.h"
+#include "licht/render/scene_on_device.h"
 #include "licht/render/spatial_filter.h"
 #include "licht/render/wavefront.h"
 #include "licht/settings/settings.h"
@@ -11,7 +11,7 @@
 namespace licht {
 
 /// What the programs of a frame are specialised to: what the scene calls for, and the settings.
-gpu::SpecConstants programConstants(const GpuScene& scene, const RenderSettings& settings);
+gpu::SpecConstants programConstants(const SceneOnDevice& scene, const RenderSettings& settings);
 
 /// Every program of a frame, compiled once: pictures of all sizes use the same ones.
 struct Programs {

@@ -52,7 +52,7 @@ struct Renderer::State {
         statistics.geometry_bytes = scene.now().geometryBytes();
         statistics.upload_seconds = secondsSince(upload_start) - statistics.bvh_seconds;
         const Clock::time_point start = Clock::now();
-        programs.emplace(device, programConstants(scene.now(), settings), settings);
+        programs.emplace(device, programConstants(scene, settings), settings);
         resize(settings.size);
         runEveryProgramOnce();
         statistics.pipeline_seconds = secondsSince(start);
@@ -324,7 +324,7 @@ void Renderer::setScene(const Scene& scene, ViewChange change) {
     finish();
     const SceneChange how = s.scene.replace(scene, !s.changed);
     if (how == SceneChange::other) {
-        s.programs.emplace(s.device, programConstants(s.scene.now(), s.settings), s.settings);
+        s.programs.emplace(s.device, programConstants(s.scene, s.settings), s.settings);
         s.resize(s.settings.size);
         s.runEveryProgramOnce();
         return;

@@ -44,14 +44,22 @@ SceneOnDevice::SceneOnDevice(gpu::Device& device, const Scene& scene, const Effe
       settings_(settings),
       effects_(effects),
       now_(bring(scene)),
-      compiled_(now_->constants()),
+      compiled_(constantsOf(*now_)),
       surfaces_(surfacesOf(scene)) {}
 
 std::unique_ptr<GpuScene> SceneOnDevice::bring(const Scene& scene) const {
     return std::make_unique<GpuScene>(
         device_, scene, effects_,
         GpuScene::Options{settings_.direct, settings_.storage_buffers, settings_.bvh_quality,
-                          settings_.lights, settings_.environment_sampling});
+                          settings_.lights, settings_.environment_sampling, settings_.scene_moves});
+}
+
+// A tree whose boxes move becomes deeper or flatter.
+gpu::SpecConstants SceneOnDevice::constantsOf(const GpuScene& scene) const {
+    constexpr std::uint32_t kDeeper = 4;
+    gpu::SpecConstants constants = scene.constants();
+    if (settings_.scene_moves) constants[kConstantBvhStackSize] += kDeeper;
+    return constants;
 }
 
 SceneChange SceneOnDevice::replace(const Scene& scene, bool seen) {
@@ -70,7 +78,7 @@ SceneChange SceneOnDevice::replace(const Scene& scene, bool seen) {
         before_ = std::move(now_);
     now_ = std::move(next);
     surfaces_ = std::move(surfaces);
-    if (!same) compiled_ = now_->constants();
+    if (!same) compiled_ = constantsOf(*now_);
     return same ? SceneChange::motion : SceneChange::other;
 }
 

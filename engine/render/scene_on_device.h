@@ -29,15 +29,18 @@ public:
     [[nodiscard]] const GpuScene& now() const { return *now_; }
     [[nodiscard]] const GpuScene& before() const { return before_ ? *before_ : *now_; }
     [[nodiscard]] bool moved() const { return before_ != nullptr; }
+    /// What programs are compiled for: this scene and, where it may be replaced, others like it.
+    [[nodiscard]] const gpu::SpecConstants& constants() const { return compiled_; }
     [[nodiscard]] const Effects& effects() const { return effects_; }
 
 private:
     [[nodiscard]] std::unique_ptr<GpuScene> bring(const Scene& scene) const;
+    [[nodiscard]] gpu::SpecConstants constantsOf(const GpuScene& scene) const;
     gpu::Device& device_;
     const RenderSettings& settings_;
     Effects effects_;
     std::unique_ptr<GpuScene> now_, before_;
-    gpu::SpecConstants compiled_;        ///< of the scene that programs were made for
+    gpu::SpecConstants compiled_;
     std::vector<std::size_t> surfaces_;  ///< counts by which scenes of the same surfaces are known
 };
 

@@ -38,12 +38,12 @@ public:
     }
 
     /// Of a frame; one that shows what the last one did is not made again.
-    const Truth& of(const Camera& camera) {
-        const ViewRecord view = makeView(camera, size_, bounds_);
-        if (!truth_.mean.texels.empty() && std::memcmp(&view, &truth_.view, sizeof(view)) == 0) return truth_;
+    const Truth& of(const PathFrame& frame) {
+        const ViewRecord view = makeView(frame.camera, size_, bounds_);
+        if (!truth_.mean.texels.empty() && !frame.scene && std::memcmp(&view, &truth_.view, sizeof(view)) == 0) return truth_;
         std::array<Film, 2> films;
         for (std::size_t i = 0; i < films.size(); ++i) {
-            renderers_[i]->setCamera(camera, ViewChange::cut);
+            showFrame(*renderers_[i], {frame.camera, ViewChange::cut, frame.scene});
             for (std::uint32_t sample = 0; sample < samples_; ++sample) renderers_[i]->renderSample();
             films[i] = renderers_[i]->readFilm();
         }
@@ -78,7 +78,7 @@ public:
 
     void draw(const PathFrame& frame) {
         const Clock::time_point start = Clock::now();
-        renderer_->setCamera(frame.camera, frame.change);
+        showFrame(*renderer_, frame);
         for (std::uint32_t i = 0; i < samples_; ++i) renderer_->renderSample();
         previous_ = std::move(picture_);
         picture_ = withoutAlpha(renderer_->readFilm().mean);
@@ -148,8 +148,10 @@ double TemporalMode::seconds() const {
 }
 
 TemporalAccuracy measureTemporal(gpu::Device& device, const Scene& scene, std::span<const PathFrame> path,
-                                 const RenderSettings& settings, const TemporalRequest& request,
+                                 const RenderSettings& asked, const TemporalRequest& request,
                                  const TemporalHooks& hooks) {
+    RenderSettings settings = asked;
+    settings.scene_moves = path.front().scene != nullptr;
     Truths truths(device, scene, path.front().camera, settings, request.reference_samples);
     std::vector<Runner> runners;
     for (const Denoise mode : kTemporalModes)
@@ -158,7 +160,7 @@ TemporalAccuracy measureTemporal(gpu::Device& device, const Scene& scene, std::s
     std::optional<Truth> before;
     for (std::size_t frame = 0; frame < path.size(); ++frame) {
         if (hooks.interrupted && hooks.interrupted()) break;
-        const Truth& truth = truths.of(path[frame].camera);
+        const Truth& truth = truths.of(path[frame]);
         result.reference_rel_mse += truth.rel_mse;
         for (Runner& runner : runners) {
             runner.draw(path[frame]);

@@ -16,7 +16,7 @@
 #include "samples/licht/interrupt.h"
 #include "samples/licht/outputs.h"
 #include "samples/licht/plot.h"
-#include "samples/licht/scene_source.h"
+#include "samples/licht/scene_in_time.h"
 
 namespace licht {
 namespace {
@@ -109,7 +109,8 @@ int accuracy(const AccuracyOptions& options) {
     const NamedScene source = loadScene(options.source);
     requireOwnFiles(outputs, source.scene.files);
     const Shot shot = chooseShot(source, options.source.camera, options.size);
-    const std::vector<PathFrame> path = followPath(options.path, source, shot.camera);
+    std::vector<PathFrame> path = followPath(options.path, source, shot.camera);
+    addScenes(path, source, options.source, options.path.rate);
 
     std::optional<ProgressLine> progress(std::in_place, stderr, options.quiet);
     gpu::DeviceOptions device_options;

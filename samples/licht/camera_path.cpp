@@ -38,6 +38,10 @@ PathFrame orbit(const OrbitCamera& start, const Moment& now) {
     return {swung(start, now.seconds).camera(), ViewChange::motion};
 }
 
+PathFrame rest(const OrbitCamera& start, const Moment& /*now*/) {
+    return {start.camera(), ViewChange::motion};
+}
+
 PathFrame strafe(const OrbitCamera& start, const Moment& now) {
     OrbitCamera camera = start;
     camera.walk(static_cast<float>(kStride * toAndFro(now.seconds)), 0.0F);
@@ -68,6 +72,7 @@ constexpr auto kRows = std::to_array<Row>({
     {{"orbit", "swings about what the camera looks at, 15 degrees to either side in 4 seconds"}, orbit},
     {{"strafe", "walks to either side, a tenth of the distance in 4 seconds"}, strafe},
     {{"cut", "rests, and half-way sees the scene from 40 degrees aside"}, cut},
+    {{"rest", "rests: what moves is the scene"}, rest},
     {{"still-move-still", "rests for a third of the frames, swings for a third, and rests again"},
      stillMoveStill},
 });

@@ -13,6 +13,7 @@
 #include "samples/licht/interrupt.h"
 #include "samples/licht/outputs.h"
 #include "samples/licht/render_steps.h"
+#include "samples/licht/scene_in_time.h"
 #include "samples/licht/text.h"
 
 namespace licht {
@@ -72,7 +73,9 @@ public:
         const std::uint32_t begun = firstThatTells(path_, first);
         for (std::uint32_t frame = begun; frame < path_.size() && written.all(); ++frame) {
             const Clock::time_point frame_start = Clock::now();
-            renderer.setCamera(path_[frame].camera, frame == begun ? ViewChange::cut : path_[frame].change);
+            PathFrame shown = path_[frame];
+            if (frame == begun) shown.change = ViewChange::cut;
+            showFrame(renderer, shown);
             for (std::uint32_t i = 0; i < *options_.run.samples && !interrupt.asked(); ++i)
                 renderer.renderSample();
             if (interrupt.asked()) {
@@ -134,7 +137,8 @@ int renderSequence(const RenderOptions& asked) {
     const NamedScene source = loadScene(asked.source);
     const Shot shot = chooseShot(source, asked.source.camera, asked.size);
     const RenderOptions options = completed(asked, source);
-    const std::vector<PathFrame> path = followPath(*options.path, source, shot.camera);
+    std::vector<PathFrame> path = followPath(*options.path, source, shot.camera);
+    addScenes(path, source, options.source, options.path->rate);
     const FrameFiles files(options.outputs);
     requireOwnFrames(options, source.scene, files, options.path->frames);
     for (const auto& file : files.of(0)) checkWritable(file);
@@ -149,6 +153,7 @@ int renderSequence(const RenderOptions& asked) {
     RunSettings run = options.run;
     run.render.size = shot.size;
     run.render.moves = true;
+    run.render.scene_moves = moves(source);
     const RunPlan plan = planRun(device, source.scene, shot.camera, run);
     notePlan(report, plan);
     Renderer renderer(device, source.scene, path.front().camera, plan.settings);

@@ -2,6 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 // What is filtered: the demodulated light of both halves; and the noise of each pixel as far as it alone, or where it cannot tell the pixels beside it, say.
 #include "filter/halves.glsl"
+#include "pure/mirror.glsl"
 
 layout(rgba32f, binding = kBindingFilterTo) uniform writeonly image2D filter_to;
 layout(rgba32f, binding = kBindingSmoothTo) uniform writeonly image2D smooth_to;
@@ -24,6 +25,12 @@ float varianceBeside(uint kind, vec3 here, float count, Guide guide, ivec2 pixel
     return weights > 0.0 ? sum / weights : meanSquare(here) * count;
 }
 
+// What pixels beside a mirror's differ by is what it shows, and no noise.
+float noiseShareBeside(uint kind, ivec2 pixel) {
+    if (kind == 0u) return 1.0;
+    return 1.0 - mirrorLikeness(tileTexel(signal_sums, kSumFirstMirrored, pixel).a / (push.count_a + push.count_b));
+}
+
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (!isInside(pixel)) return;
@@ -31,7 +38,7 @@ void main() {
     Guide guide = guideOf(pixel);
     for (uint kind = 0u; kind < kKinds; ++kind) {
         Halves h = halvesOf(kind, demodulation(kind, pixel), pixel);
-        variance[kind] = isSplit(h) ? varianceBetween(h) : varianceBeside(kind, whole(h).a, countOf(h), guide, pixel);
+        variance[kind] = isSplit(h) ? varianceBetween(h) : noiseShareBeside(kind, pixel) * varianceBeside(kind, whole(h).a, countOf(h), guide, pixel);
         h = whole(h);
         uint tile = kFilterSpread + kHalves * kind;
         imageStore(filter_to, tilePlace(imageSize(filter_to), push.size, tile, uvec2(pixel)), vec4(h.a, h.n_a));

@@ -21,7 +21,7 @@ void main() {
     bool one = surface.y > 0.0 && hits > 0.0;
     float n2 = dot(place.xyz, place.xyz);
     store(kHistoryPlace, pixel, one ? vec4(n2 > 0.0 ? place.xyz * inversesqrt(n2) : vec3(0.0), place.w / hits) : vec4(0.0));
-    store(kHistorySurface, pixel, vec4(surface.x, 0.0, surface.z, 0.0));
+    store(kHistorySurface, pixel, vec4(surface.x, 0.0, surface.z, surface.w));
     for (uint kind = 0u; kind < kKinds; ++kind) {
         Halves h = halvesOf(kind, demodulation(kind, pixel), pixel);
         uint tile = kPriorSpread + kHalves * kind;

@@ -36,7 +36,9 @@ void main() {
     if (hit.instance != kNoIndex) {
         float before = meanOf(imageLoad(radiance_image, ivec2(pixel)).rgb), now = meanOf(radianceNow(pixel, hit));
         float change = now - before;
-        if (change == change && abs(change) < infinity()) gradient = vec4(change, change * change, max(before, now), 1.0);
+        // Relative, so that a rare bright path weighs no more than another; a path that found nothing twice says nothing.
+        float share = change / max(before, now);
+        if (share == share && abs(share) <= 1.0) gradient = vec4(share, share * share, 1.0, 0.0);
     }
     imageStore(gradients_to, ivec2(square), gradient);
 }

@@ -85,7 +85,7 @@ Told toldOfMirrored(ivec2 pixel, Hit hit, Wanted wanted, vec2 jitter) {
     vec3 away = wanted.position - frame.view.eye, direction = frame.view.orthographic != 0u ? -frame.view.back : normalize(away);
     float image = distanceOfImage(likeness * onward, curvatureAt(pixel, hit, wanted.position, wanted.normal), -dot(direction, wanted.normal));
     const float kSharp = 0.8;
-    if (likeness > kSharp) wanted.mirrored = onward;
+    if (likeness > kSharp) wanted.mirrored = vec2(onward, sampled(pixel, kShareToLight).a);
     return toldAround(1u, wanted, placeBefore(wanted.position + max(image, 0.0) * direction, jitter));
 }
 
@@ -100,7 +100,7 @@ void main() {
         float depth = depthIn(frame.previous_view, position);
         if (depth > 0.0) {
             const float kOffPlane = 0.01;  // of the distance
-            Wanted wanted = Wanted(position, sampled(pixel, kFirstPlace).xyz, float(hit.instance + 1u), kOffPlane * depth, 0.0);
+            Wanted wanted = Wanted(position, sampled(pixel, kFirstPlace).xyz, float(hit.instance + 1u), kOffPlane * depth, vec2(0.0));
             spread = toldAround(0u, wanted, placeBefore(position, jitter));
             if (kGlossy) mirrored = toldOfMirrored(pixel, hit, wanted, jitter);
         }

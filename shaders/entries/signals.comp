@@ -31,10 +31,10 @@ void noteSurface(uvec2 pixel, bool fresh) {
     ivec2 at = tilePlace(imageSize(signal_sums), frame.view.size, kSumSurface, pixel);
     vec4 before = imageLoad(signal_sums, at);
     float alone = fresh || (before.y > 0.0 && before.x == surface) ? 1.0 : 0.0;
-    // A path that mirrors nothing says nothing of how far what is mirrored lies.
+    // A path that mirrors nothing says nothing of what is mirrored.
     vec4 onward = sampled(pixel, kShareOnward);
     bool mirrors = dot(onward.rgb, vec3(1.0)) < 1.5;
-    imageStore(signal_sums, at, vec4(surface, alone, mirrors ? onward.a : 0.0, 0.0));
+    imageStore(signal_sums, at, vec4(surface, alone, mirrors ? vec2(onward.a, sampled(pixel, kShareToLight).a) : vec2(0.0)));
 }
 
 void main() {

@@ -4,6 +4,7 @@
 #ifndef LICHT_HISTORY_REPROJECT_GLSL
 #define LICHT_HISTORY_REPROJECT_GLSL
 #include "camera/gbuffer.glsl"
+#include "pure/mirror.glsl"
 #include "pure/tiles.glsl"
 #include "shared/signals.h"
 
@@ -20,7 +21,7 @@ struct Wanted {
     vec3 normal;
     float instance;  // + 1
     float reach;     // metres that its plane may be off
-    float mirrored;  // metres to what it mirrors as sharply as a picture; 0: it does not
+    vec2 mirrored;   // what it mirrors as sharply as a picture: metres to it, and its instance + 1; 0: it does not
 };
 
 vec3 previousPoint(uint instance, uint vertex) {
@@ -48,17 +49,6 @@ vec3 positionIn(ViewRecord view, ivec2 pixel, float depth) {
     return ray.origin + ray.direction * (depth / -dot(view.back, ray.direction));
 }
 
-// Where behind a mirror at that position the image of what lies so far before it is. curvature: of the mirror, 1/m, positive where it is convex (Coddington's
-// equation, of its mean). Negative: there is none, or before the mirror.
-float distanceOfImage(float distance_, float curvature, float cos_o) { return distance_ / (1.0 + 2.0 * curvature * distance_ / max(cos_o, 0.1)); }
-
-// How far a lobe of that GGX width looks along the mirror's direction: 1 a mirror, 0 any way.
-// Lagarde, de Rousiers 2014, Moving Frostbite to Physically Based Rendering, section 4.9.3.
-float mirrorLikeness(float alpha) {
-    float roughness = sqrt(clamp(alpha, 0.0, 1.0)), smoothness = 1.0 - roughness;
-    return smoothness * (sqrt(smoothness) + roughness);
-}
-
 // Whether a pixel of the view before shows the surface: the same instance, on its plane, facing alike.
 bool showsSurface(Wanted wanted, ivec2 tap) {
     const float kFacing = 0.7;  // cosine: bumps agree, corners do not
@@ -66,8 +56,10 @@ bool showsSurface(Wanted wanted, ivec2 tap) {
     vec4 place = historyAt(kHistoryPlace, tap);
     vec4 surface = historyAt(kHistorySurface, tap);
     if (place.w <= 0.0 || surface.x != wanted.instance) return false;
-    const float kOffDistance = 0.25;  // what lies behind in a mirror is as well hidden as what lies behind without one
-    if (wanted.mirrored > 0.0 && abs(surface.z - wanted.mirrored) > kOffDistance * min(surface.z, wanted.mirrored)) return false;
+    // What lies behind in a mirror is as well hidden as what lies behind without one.
+    const float kOffDistance = 0.25;
+    float off = abs(surface.z - wanted.mirrored.x);
+    if (wanted.mirrored.x > 0.0 && (surface.w != wanted.mirrored.y || off > kOffDistance * min(surface.z, wanted.mirrored.x))) return false;
     if (dot(place.xyz, wanted.normal) < kFacing) return false;
     return abs(dot(wanted.normal, positionIn(frame.previous_view, tap, place.w) - wanted.position)) < wanted.reach;
 }

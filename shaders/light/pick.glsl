@@ -38,7 +38,7 @@ LightPick pickLight(PackedShadingPoint at, vec2 u) {
     AliasRecord column = lightAliasAt(slot);
     bool keep = u.y < column.threshold;
     if (!keep) slot = column.alias;
-    if (kLights != kLightsTree) return LightPick(slot, 1.0);
+    if (kLights != kLightsTree || frame.tree_lights == 0u) return LightPick(slot, 1.0);
     if (slot > 0u) return LightPick(frame.tree_lights + slot - 1u, 1.0);
     // What the two numbers have not yet decided is uniform again.
     float rest = keep ? u.y / column.threshold : (u.y - column.threshold) / (1.0 - column.threshold);

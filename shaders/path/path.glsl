@@ -83,7 +83,7 @@ void onLight(uvec2 pixel, uint order, uint way, vec3 kept, vec3 lost);
 void onRays(uvec2 pixel, uint order, uint rays);
 void onFirstVertex(uvec2 pixel, Surface s, vec3 wo_local);
 void onFirstWay(uvec2 pixel, uint way, vec3 share_of_spread);
-void onSecondVertex(uvec2 pixel, float distance_);
+void onSecondVertex(uvec2 pixel, uint instance, float distance_);
 
 // Light that would arrive straight from a sampled light and scatter towards wo, one order of T applied to Le, with the ray that asks whether it does.
 // One sample of the lights: several at what the camera sees, and several candidates of which one is kept (Talbot, Cline, Egbert 2005, Importance Resampling
@@ -159,7 +159,7 @@ void extendPath(inout Path p, inout PathCounts counts, out ShadowRay to_light, o
     to_light = kNoShadowRay;
     // What the surface emits: T^bounce Le.
     Surface s = surfaceAt(p.hit, p.wo);
-    if (kReprojects && p.bounce == 1u) onSecondVertex(p.address.pixel, distance(s.position, p.from.position));
+    if (kReprojects && p.bounce == 1u) onSecondVertex(p.address.pixel, p.hit.instance, distance(s.position, p.from.position));
     if (kRegularise && p.bounce > 0u) s.bsdf = regularised(s.bsdf);
     if (kUnlit && s.unlit && p.bounce > 0u) s.emission = vec3(0.0);
     if (kEmission || kUnlit) {

@@ -25,10 +25,12 @@ void beginSignals(uvec2 pixel) {
     if (!kSignals) return;
     setSignal(pixel, kSampleSpread, vec4(0.0));
     setSignal(pixel, kSampleMirrored, vec4(0.0));
-    if (kReprojects) setSignal(pixel, kShareOnward, vec4(1.0, 1.0, 1.0, 0.0));
     setSignal(pixel, kFirstSpread, vec4(0.0));
     setSignal(pixel, kFirstMirrored, vec4(0.0));
     setSignal(pixel, kFirstPlace, vec4(0.0));
+    if (!kReprojects) return;
+    setSignal(pixel, kShareOnward, vec4(1.0, 1.0, 1.0, 0.0));
+    setSignal(pixel, kShareToLight, vec4(0.0));
 }
 
 void noteFirstVertex(uvec2 pixel, Surface s, vec3 wo_local) {
@@ -40,13 +42,14 @@ void noteFirstVertex(uvec2 pixel, Surface s, vec3 wo_local) {
 
 // Until a path meets a second surface it goes on for ever.
 void noteFirstWay(uvec2 pixel, uint way, vec3 share_of_spread) {
-    setSignal(pixel, way == kWayToLight ? kShareToLight : kShareOnward, vec4(share_of_spread, kFarthestOnward));
+    setSignal(pixel, way == kWayToLight ? kShareToLight : kShareOnward, vec4(share_of_spread, way == kWayToLight ? 0.0 : kFarthestOnward));
 }
 
-// How far the path went from its first vertex to the next.
-void noteSecondVertex(uvec2 pixel, float distance_) {
-    ivec2 at = signalPlace(pixel, kShareOnward);
-    imageStore(sample_signals, at, vec4(imageLoad(sample_signals, at).rgb, distance_));
+// What the path met behind its first vertex, and how far from there.
+void noteSecondVertex(uvec2 pixel, uint instance, float distance_) {
+    ivec2 onward = signalPlace(pixel, kShareOnward), to_light = signalPlace(pixel, kShareToLight);
+    imageStore(sample_signals, onward, vec4(imageLoad(sample_signals, onward).rgb, distance_));
+    imageStore(sample_signals, to_light, vec4(imageLoad(sample_signals, to_light).rgb, float(instance + 1u)));
 }
 
 void noteSignal(uvec2 pixel, uint way, vec3 light) {

@@ -13,7 +13,7 @@ void onRays(uvec2 pixel, uint order, uint rays) { noteRays(pixel, order, rays); 
 
 void onFirstVertex(uvec2 pixel, Surface s, vec3 wo_local) { noteFirstVertex(pixel, s, wo_local); }
 
-void onSecondVertex(uvec2 pixel, float distance_) { noteSecondVertex(pixel, distance_); }
+void onSecondVertex(uvec2 pixel, uint instance, float distance_) { noteSecondVertex(pixel, instance, distance_); }
 
 void onFirstWay(uvec2 pixel, uint way, vec3 share_of_spread) { noteFirstWay(pixel, way, share_of_spread); }
 

@@ -9,11 +9,12 @@ LICHT_SHARED_BEGIN
 // Of one sample, in sample_signals.
 LICHT_CONSTANT uint kSampleSpread = 0u;                    // light, spread evenly
 LICHT_CONSTANT uint kSampleMirrored = kSampleSpread + 1u;  // light, mirrored
-LICHT_CONSTANT uint kShareToLight = kSampleMirrored + 1u;  // of the light of the ray to a light: what is spread evenly
-LICHT_CONSTANT uint kShareOnward = kShareToLight + 1u;     // of the light along the path; A: how far it went to the next surface, metres; 0: nowhere
-LICHT_CONSTANT uint kFirstSpread = kShareOnward + 1u;      // RGB: by what light spread evenly is demodulated; A: 1 where a surface is
-LICHT_CONSTANT uint kFirstMirrored = kFirstSpread + 1u;    // RGB: and light mirrored; A: GGX width
-LICHT_CONSTANT uint kFirstPlace = kFirstMirrored + 1u;     // XYZ: normal; W: depth along the axis
+LICHT_CONSTANT uint kShareToLight =
+    kSampleMirrored + 1u;  // of the light of the ray to a light: what is spread evenly; A: what the path met next, instance + 1; 0: nothing
+LICHT_CONSTANT uint kShareOnward = kShareToLight + 1u;   // of the light along the path; A: how far it went to the next surface, metres; 0: nowhere
+LICHT_CONSTANT uint kFirstSpread = kShareOnward + 1u;    // RGB: by what light spread evenly is demodulated; A: 1 where a surface is
+LICHT_CONSTANT uint kFirstMirrored = kFirstSpread + 1u;  // RGB: and light mirrored; A: GGX width
+LICHT_CONSTANT uint kFirstPlace = kFirstMirrored + 1u;   // XYZ: normal; W: depth along the axis
 LICHT_CONSTANT uint kSampleTiles = kFirstPlace + 1u;
 
 LICHT_CONSTANT float kFarthestOnward = 1e9f;  // metres: what is seen in the sky
@@ -27,7 +28,7 @@ LICHT_CONSTANT uint kSumFirstSpread = kSumSeen + kHalves;  // of both halves fro
 LICHT_CONSTANT uint kSumFirstMirrored = kSumFirstSpread + 1u;
 LICHT_CONSTANT uint kSumFirstPlace = kSumFirstMirrored + 1u;
 LICHT_CONSTANT uint kSumSurface = kSumFirstPlace + 1u;  // no sums; X: what the last sample showed, instance + 1 (0: nothing); Y: 1 where all showed that;
-                                                        // Z: how far from there its path met the next surface
+                                                        // Z, W: how far from there its path met the next surface, instance + 1
 LICHT_CONSTANT uint kSumTiles = kSumSurface + 1u;
 
 // What earlier views have told, in history as they saw it and in prior as this view sees it. RGB: demodulated light, mean of A samples.
@@ -35,7 +36,7 @@ LICHT_CONSTANT uint kPriorSpread = 0u;  // a half behind the other
 LICHT_CONSTANT uint kPriorMirrored = kPriorSpread + kHalves;
 LICHT_CONSTANT uint kPriorTiles = kPriorMirrored + kHalves;
 LICHT_CONSTANT uint kHistoryPlace = kPriorTiles;           // in history alone. XYZ: normal; W: depth along the axis, 0: nothing can be had here
-LICHT_CONSTANT uint kHistorySurface = kHistoryPlace + 1u;  // X, Z: as in kSumSurface
+LICHT_CONSTANT uint kHistorySurface = kHistoryPlace + 1u;  // X, Z, W: as in kSumSurface
 LICHT_CONSTANT uint kHistoryTiles = kHistorySurface + 1u;
 
 // What is filtered, in filter_even and filter_odd. RGB: demodulated light; A: its variance, the mean of the channels'.
@@ -55,8 +56,8 @@ LICHT_CONSTANT uint kEdgeMark = kEdgeParts;  // 1: at an edge
 LICHT_CONSTANT uint kEdgeTiles = kEdgeMark + 1u;
 LICHT_CONSTANT int kEdgeSelf = 4;
 
-// How far the light changed, in gradients_even and gradients_odd: a texel for a square of so many pixels a side. X: change, Y: its square, Z: the larger of the
-// light before and now, W: 1; sums of them over the texels around.
+// How far the light changed, in gradients_even and gradients_odd: a texel for a square of so many pixels a side. X: change over the larger
+// of the light before and now, Y: its square, Z: 1; sums of them over the texels around.
 LICHT_CONSTANT uint kGradientSide = 5u;
 
 struct GradientPush {
