@@ -37,29 +37,49 @@ float changeAround(vec2 place) {
 // hundredth of the light's square.
 float countAfterChange(float n, float share) { return n / (1.0 + 100.0 * n * share * share); }
 
-Told toldAround(uint kind, Wanted wanted, vec2 place) {
-    uint tile = kPriorSpread + kHalves * kind;
-    ivec2 first = ivec2(floor(place - 0.5));
-    vec2 f = place - 0.5 - vec2(first);
-    vec4 a = vec4(0.0), b = vec4(0.0);
-    float weights = 0.0;
-    for (int i = 0; i < 4; ++i) {
-        ivec2 offset = ivec2(i & 1, i >> 1), tap = first + offset;
-        vec2 rows = mix(1.0 - f, f, equal(offset, ivec2(1)));
-        float w = rows.x * rows.y;
-        if (w <= 0.0 || !showsSurface(wanted, tap)) continue;
-        vec4 t_a = historyAt(tile, tap), t_b = historyAt(tile + 1u, tap);
-        a += w * vec4(t_a.a * t_a.rgb, t_a.a);
-        b += w * vec4(t_b.a * t_b.rgb, t_b.a);
-        weights += w;
-    }
-    float n_a = a.a / max(weights, 1e-6), n_b = b.a / max(weights, 1e-6);
+// Of a cubic through four texels in a row (Catmull, Rom 1974): between them nothing is blurred, however often it is resampled.
+vec4 cubicWeights(float f) {
+    float g = 1.0 - f;
+    return vec4(-0.5 * f * g * g, 1.0 + f * f * (1.5 * f - 2.5), 1.0 + g * g * (1.5 * g - 2.5), -0.5 * g * f * f);
+}
+
+// Light of half as many samples counts half. count: what the samples of all taps are divided by.
+Told told(vec4 a, vec4 b, float count, vec2 place) {
+    float n_a = max(a.a, 0.0) / max(count, 1e-6), n_b = max(b.a, 0.0) / max(count, 1e-6);
     if (kSceneMoves) {
         float share = changeAround(place);
         n_a = countAfterChange(n_a, share);
         n_b = countAfterChange(n_b, share);
     }
     return Told(vec4(a.rgb / max(a.a, 1e-6), n_a), vec4(b.rgb / max(b.a, 1e-6), n_b));
+}
+
+void addTap(uint tile, ivec2 tap, float w, inout vec4 a, inout vec4 b) {
+    vec4 t_a = historyAt(tile, tap), t_b = historyAt(tile + 1u, tap);
+    a += w * vec4(t_a.a * t_a.rgb, t_a.a);
+    b += w * vec4(t_b.a * t_b.rgb, t_b.a);
+}
+
+Told toldAround(uint kind, Wanted wanted, vec2 place) {
+    uint tile = kPriorSpread + kHalves * kind;
+    ivec2 first = ivec2(floor(place - 0.5));
+    vec2 f = place - 0.5 - vec2(first);
+    vec4 a = vec4(0.0), b = vec4(0.0), weights = vec4(0.0);
+    bool smooth_ = true;
+    for (int i = 0; i < 4; ++i) {
+        ivec2 offset = ivec2(i & 1, i >> 1);
+        vec2 rows = mix(1.0 - f, f, equal(offset, ivec2(1)));
+        if (showsSurface(wanted, first + offset, smooth_)) weights[i] = rows.x * rows.y;
+        else smooth_ = false;
+    }
+    if (!smooth_) {
+        for (int i = 0; i < 4; ++i)
+            if (weights[i] > 0.0) addTap(tile, first + ivec2(i & 1, i >> 1), weights[i], a, b);
+        return told(a, b, weights.x + weights.y + weights.z + weights.w, place);
+    }
+    vec4 across = cubicWeights(f.x), down = cubicWeights(f.y);
+    for (int i = 0; i < 16; ++i) addTap(tile, first + ivec2(i & 3, i >> 2) - 1, across[i & 3] * down[i >> 2], a, b);
+    return told(a, b, 1.0, place);
 }
 
 // Where in the view before, in pixels, the point was; the middle of the pixel beside it has moved as far, whatever the jitter.

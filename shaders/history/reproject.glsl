@@ -49,12 +49,13 @@ vec3 positionIn(ViewRecord view, ivec2 pixel, float depth) {
     return ray.origin + ray.direction * (depth / -dot(view.back, ray.direction));
 }
 
-// Whether a pixel of the view before shows the surface: the same instance, on its plane, facing alike.
-bool showsSurface(Wanted wanted, ivec2 tap) {
+// Whether a pixel of the view before shows the surface: the same instance, on its plane, facing alike. smooth_: and nothing else beside it.
+bool showsSurface(Wanted wanted, ivec2 tap, inout bool smooth_) {
     const float kFacing = 0.7;  // cosine: bumps agree, corners do not
     if (any(lessThan(tap, ivec2(0))) || any(greaterThanEqual(tap, ivec2(frame.previous_view.size)))) return false;
     vec4 place = historyAt(kHistoryPlace, tap);
     vec4 surface = historyAt(kHistorySurface, tap);
+    smooth_ = smooth_ && surface.y > 0.0;
     if (place.w <= 0.0 || surface.x != wanted.instance) return false;
     // What lies behind in a mirror is as well hidden as what lies behind without one.
     const float kOffDistance = 0.25;

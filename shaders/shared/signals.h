@@ -36,7 +36,7 @@ LICHT_CONSTANT uint kPriorSpread = 0u;  // a half behind the other
 LICHT_CONSTANT uint kPriorMirrored = kPriorSpread + kHalves;
 LICHT_CONSTANT uint kPriorTiles = kPriorMirrored + kHalves;
 LICHT_CONSTANT uint kHistoryPlace = kPriorTiles;           // in history alone. XYZ: normal; W: depth along the axis, 0: nothing can be had here
-LICHT_CONSTANT uint kHistorySurface = kHistoryPlace + 1u;  // X, Z, W: as in kSumSurface
+LICHT_CONSTANT uint kHistorySurface = kHistoryPlace + 1u;  // X, Z, W: as in kSumSurface; Y: 1 where the pixels around show the same smooth surface
 LICHT_CONSTANT uint kHistoryTiles = kHistorySurface + 1u;
 
 // What is filtered, in filter_even and filter_odd. RGB: demodulated light; A: its variance, the mean of the channels'.
