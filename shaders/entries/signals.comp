@@ -4,11 +4,13 @@
 #include "pure/tiles.glsl"
 #include "shared/bindings.h"
 #include "shared/constants.h"
+#include "shared/effects.h"
 #include "shared/frame.h"
 #include "shared/index.h"
 #include "shared/signals.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
+layout(constant_id = kEffectGlossy) const bool kGlossy = true;
 layout(constant_id = kConstantReprojects) const bool kReprojects = false;
 layout(push_constant) uniform Push { SamplePush push; };
 layout(std430, binding = kBindingFrame) readonly buffer FrameBlock { FrameRecord frame; };
@@ -24,6 +26,9 @@ void add(uvec2 pixel, uint tile, vec4 value, bool fresh) {
     imageStore(signal_sums, at, value + mix(imageLoad(signal_sums, at), vec4(0.0), bvec4(fresh)));  // selected, not branched on: see accumulate.comp
 }
 
+// Where there is no light its share may be anything.
+vec3 partOf(vec3 share, vec3 light) { return mix(vec3(0.0), share * light, notEqual(light, vec3(0.0))); }
+
 // What the pixel shows, and whether it is one thing alone.
 void noteSurface(uvec2 pixel, bool fresh) {
     uint instance = imageLoad(gbuffer, ivec2(pixel)).x;
@@ -32,7 +37,7 @@ void noteSurface(uvec2 pixel, bool fresh) {
     vec4 before = imageLoad(signal_sums, at);
     float alone = fresh || (before.y > 0.0 && before.x == surface) ? 1.0 : 0.0;
     // A path that mirrors nothing says nothing of what is mirrored.
-    vec4 onward = sampled(pixel, kShareOnward);
+    vec4 onward = kGlossy ? sampled(pixel, kShareOnward) : vec4(1.0, 1.0, 1.0, 0.0);
     bool mirrors = dot(onward.rgb, vec3(1.0)) < 1.5;
     imageStore(signal_sums, at, vec4(surface, alone, mirrors ? vec2(onward.a, sampled(pixel, kShareToLight).a) : vec2(0.0)));
 }
@@ -40,15 +45,21 @@ void noteSurface(uvec2 pixel, bool fresh) {
 void main() {
     uvec2 pixel = gl_GlobalInvocationID.xy;
     if (any(greaterThanEqual(pixel, frame.view.size))) return;
-    vec4 spread = sampled(pixel, kSampleSpread), mirrored = sampled(pixel, kSampleMirrored);
-    vec4 seen = vec4(imageLoad(radiance_image, ivec2(pixel)).rgb - spread.rgb - mirrored.rgb, 0.0);
+    vec3 seen = sampled(pixel, kSampleSeen).rgb, spread = imageLoad(radiance_image, ivec2(pixel)).rgb - seen, mirrored = vec3(0.0);
+    if (kGlossy) {
+        vec3 to_light = sampled(pixel, kSampleToLight).rgb, onward = spread - to_light;
+        spread = partOf(sampled(pixel, kShareToLight).rgb, to_light) + partOf(sampled(pixel, kShareOnward).rgb, onward);
+        mirrored = to_light + onward - spread;
+    }
     uint half_ = push.sample_index % kHalves;
     bool fresh_half = push.count_before < kHalves, fresh = push.count_before == 0u;
-    add(pixel, kSumSpread + half_, spread, fresh_half);
-    add(pixel, kSumMirrored + half_, mirrored, fresh_half);
-    add(pixel, kSumSeen + half_, seen, fresh_half);
-    add(pixel, kSumFirstSpread, sampled(pixel, kFirstSpread), fresh);
-    add(pixel, kSumFirstMirrored, sampled(pixel, kFirstMirrored), fresh);
-    add(pixel, kSumFirstPlace, sampled(pixel, kFirstPlace), fresh);
+    add(pixel, kSumSpread + half_, vec4(spread, 0.0), fresh_half);
+    if (kGlossy) add(pixel, kSumMirrored + half_, vec4(mirrored, 0.0), fresh_half);
+    add(pixel, kSumSeen + half_, vec4(seen, 0.0), fresh_half);
+    vec4 first_spread = sampled(pixel, kFirstSpread);
+    bvec4 none = bvec4(first_spread.a == 0.0);
+    add(pixel, kSumFirstSpread, first_spread, fresh);
+    if (kGlossy) add(pixel, kSumFirstMirrored, mix(sampled(pixel, kFirstMirrored), vec4(0.0), none), fresh);
+    add(pixel, kSumFirstPlace, mix(sampled(pixel, kFirstPlace), vec4(0.0), none), fresh);
     if (kReprojects) noteSurface(pixel, fresh);
 }

@@ -98,7 +98,7 @@ ShadowRay directLight(Surface s, PackedShadingPoint at, vec3 wo_local, uint dime
     vec3 spread_f;
     LobeValue scattered = evaluateBsdf(s.bsdf, wo_local, wi_local, spread_f);
     if (largest(scattered.f) <= 0.0) return kNoShadowRay;
-    if (kSignals && p.bounce == 0u) onFirstWay(p.address.pixel, kWayToLight, shareOfSpread(spread_f, scattered.f));
+    if (kSignals && kGlossy && p.bounce == 0u) onFirstWay(p.address.pixel, kWayToLight, shareOfSpread(spread_f, scattered.f));
     float weight = weightOfLightSample(light, scattered.pdf);
     vec3 arriving = scattered.f * light.radiance * (wi_local.z * weight / light.pdf);
     RayQuery query = shadowQuery(offsetOrigin(vertexOn(s), wi), light.direction, light.t_max, light.t_enough);
@@ -159,7 +159,7 @@ void extendPath(inout Path p, inout PathCounts counts, out ShadowRay to_light, o
     to_light = kNoShadowRay;
     // What the surface emits: T^bounce Le.
     Surface s = surfaceAt(p.hit, p.wo);
-    if (kReprojects && p.bounce == 1u) onSecondVertex(p.address.pixel, p.hit.instance, distance(s.position, p.from.position));
+    if (kReprojects && kGlossy && p.bounce == 1u) onSecondVertex(p.address.pixel, p.hit.instance, distance(s.position, p.from.position));
     if (kRegularise && p.bounce > 0u) s.bsdf = regularised(s.bsdf);
     if (kUnlit && s.unlit && p.bounce > 0u) s.emission = vec3(0.0);
     if (kEmission || kUnlit) {
@@ -180,7 +180,7 @@ void extendPath(inout Path p, inout PathCounts counts, out ShadowRay to_light, o
     vec4 u = sample4(p.address, dimension + kDimensionScatter);
     BsdfSample scattered = sampleBsdf(s.bsdf, wo_local, u.z, u.xy);
     vec3 wi = worldFromLocal(s.frame, scattered.wi);
-    if (kSignals && p.bounce == 0u) onFirstWay(p.address.pixel, kWayOnward, shareOfSpread(s.bsdf, wo_local, scattered.wi));
+    if (kSignals && kGlossy && p.bounce == 0u) onFirstWay(p.address.pixel, kWayOnward, shareOfSpread(s.bsdf, wo_local, scattered.wi));
     p.throughput *= scattered.weight;
     p.alive = scattered.valid && dot(wi, s.face_normal) > 0.0 && largest(p.throughput) > 0.0;  // below the true surface: absorbed
 

@@ -15,20 +15,13 @@ ivec2 signalPlace(uvec2 pixel, uint tile) { return tilePlace(imageSize(sample_si
 
 void setSignal(uvec2 pixel, uint tile, vec4 value) { imageStore(sample_signals, signalPlace(pixel, tile), value); }
 
-void addToSignal(uvec2 pixel, uint tile, vec3 light) {
-    ivec2 at = signalPlace(pixel, tile);
-    imageStore(sample_signals, at, imageLoad(sample_signals, at) + vec4(light, 0.0));
-}
-
 // Before a path begins: nothing has been found, no surface met.
 void beginSignals(uvec2 pixel) {
     if (!kSignals) return;
-    setSignal(pixel, kSampleSpread, vec4(0.0));
-    setSignal(pixel, kSampleMirrored, vec4(0.0));
-    setSignal(pixel, kFirstSpread, vec4(0.0));
-    setSignal(pixel, kFirstMirrored, vec4(0.0));
-    setSignal(pixel, kFirstPlace, vec4(0.0));
-    if (!kReprojects) return;
+    setSignal(pixel, kSampleSeen, vec4(0.0));
+    setSignal(pixel, kSampleToLight, vec4(0.0));
+    setSignal(pixel, kFirstSpread, vec4(0.0));  // and the other tiles of a first vertex are not to be read
+    if (!kReprojects || !kGlossy) return;
     setSignal(pixel, kShareOnward, vec4(1.0, 1.0, 1.0, 0.0));
     setSignal(pixel, kShareToLight, vec4(0.0));
 }
@@ -36,7 +29,7 @@ void beginSignals(uvec2 pixel) {
 void noteFirstVertex(uvec2 pixel, Surface s, vec3 wo_local) {
     Demodulation d = demodulationOf(s.bsdf, wo_local);
     setSignal(pixel, kFirstSpread, vec4(d.spread, 1.0));
-    setSignal(pixel, kFirstMirrored, vec4(d.mirrored, s.bsdf.specular.alpha));
+    if (kGlossy) setSignal(pixel, kFirstMirrored, vec4(d.mirrored, s.bsdf.specular.alpha));
     setSignal(pixel, kFirstPlace, vec4(s.frame.normal, -dot(frame.view.back, s.position - frame.view.eye)));
 }
 
@@ -52,11 +45,10 @@ void noteSecondVertex(uvec2 pixel, uint instance, float distance_) {
     imageStore(sample_signals, to_light, vec4(imageLoad(sample_signals, to_light).rgb, float(instance + 1u)));
 }
 
-void noteSignal(uvec2 pixel, uint way, vec3 light) {
-    if (!allFinite(light)) return;
-    vec3 share = imageLoad(sample_signals, signalPlace(pixel, way == kWayToLight ? kShareToLight : kShareOnward)).rgb;
-    addToSignal(pixel, kSampleSpread, share * light);
-    if (kGlossy) addToSignal(pixel, kSampleMirrored, (1.0 - share) * light);
+// Light of one order; a path finds it once straight away and once by its first ray to a light.
+void noteSignal(uvec2 pixel, uint order, uint way, vec3 light) {
+    if (order == 0u) setSignal(pixel, kSampleSeen, vec4(light, 0.0));
+    else if (way == kWayToLight) setSignal(pixel, kSampleToLight, vec4(light, 0.0));
 }
 
 #endif

@@ -6,7 +6,7 @@
 
 void onLight(uvec2 pixel, uint order, uint way, vec3 kept, vec3 lost) {
     noteOrder(pixel, order, kept, lost);
-    if (kSignals && order > 0u) noteSignal(pixel, way, kept);
+    if (kSignals) noteSignal(pixel, order, way, kept);
 }
 
 void onRays(uvec2 pixel, uint order, uint rays) { noteRays(pixel, order, rays); }

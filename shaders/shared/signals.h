@@ -7,14 +7,13 @@
 LICHT_SHARED_BEGIN
 
 // Of one sample, in sample_signals.
-LICHT_CONSTANT uint kSampleSpread = 0u;                    // light, spread evenly
-LICHT_CONSTANT uint kSampleMirrored = kSampleSpread + 1u;  // light, mirrored
-LICHT_CONSTANT uint kShareToLight =
-    kSampleMirrored + 1u;  // of the light of the ray to a light: what is spread evenly; A: what the path met next, instance + 1; 0: nothing
-LICHT_CONSTANT uint kShareOnward = kShareToLight + 1u;   // of the light along the path; A: how far it went to the next surface, metres; 0: nowhere
-LICHT_CONSTANT uint kFirstSpread = kShareOnward + 1u;    // RGB: by what light spread evenly is demodulated; A: 1 where a surface is
-LICHT_CONSTANT uint kFirstMirrored = kFirstSpread + 1u;  // RGB: and light mirrored; A: GGX width
-LICHT_CONSTANT uint kFirstPlace = kFirstMirrored + 1u;   // XYZ: normal; W: depth along the axis
+LICHT_CONSTANT uint kSampleSeen = 0u;                     // light that comes straight to the camera
+LICHT_CONSTANT uint kSampleToLight = kSampleSeen + 1u;    // light of the first ray to a light; what the picture has beside these came along the path
+LICHT_CONSTANT uint kShareToLight = kSampleToLight + 1u;  // of that: what is spread evenly; A: what the path met next, instance + 1; 0: nothing
+LICHT_CONSTANT uint kShareOnward = kShareToLight + 1u;    // likewise of the light along the path; A: how far it went to the next surface, metres; 0: nowhere
+LICHT_CONSTANT uint kFirstSpread = kShareOnward + 1u;     // RGB: by what light spread evenly is demodulated; A: 1 where a surface is
+LICHT_CONSTANT uint kFirstMirrored = kFirstSpread + 1u;   // RGB: and light mirrored; A: GGX width
+LICHT_CONSTANT uint kFirstPlace = kFirstMirrored + 1u;    // XYZ: normal; W: depth along the axis
 LICHT_CONSTANT uint kSampleTiles = kFirstPlace + 1u;
 
 LICHT_CONSTANT float kFarthestOnward = 1e9f;  // metres: what is seen in the sky
