@@ -236,6 +236,11 @@ double differenceAt(const Image& a, const Image& b, std::size_t pixel) {
     return static_cast<double>(a.texels[pixel]) - static_cast<double>(b.texels[pixel]);
 }
 
+Image displayed(Image image) {
+    for (float& value : image.texels) value = srgbFromLinear(std::clamp(value, 0.0F, 1.0F));
+    return image;
+}
+
 }  // namespace
 
 Image flipMap(const Image& test, const Image& reference, double pixels_per_degree) {
@@ -261,6 +266,10 @@ double flip(const Image& test, const Image& reference, double pixels_per_degree)
     const Image map = flipMap(test, reference, pixels_per_degree);
     return std::accumulate(map.texels.begin(), map.texels.end(), 0.0) /
            static_cast<double>(map.texels.size());
+}
+
+double flipAsDisplayed(const Image& test, const Image& reference) {
+    return flip(displayed(test), displayed(reference));
 }
 
 }  // namespace licht

@@ -25,4 +25,11 @@ Image flipMap(const Image& test, const Image& reference, double pixels_per_degre
 /// The mean of that map.
 double flip(const Image& test, const Image& reference, double pixels_per_degree = kFlipPixelsPerDegree);
 
+/// The same of two linear pictures of three channels as `--tonemap none` shows them at exposure 0, before its
+/// codes are rounded.
+double flipAsDisplayed(const Image& test, const Image& reference);
+
+/// What that takes for a while, in bytes a pixel: both pictures as they are shown, beside the rest.
+inline constexpr double kFlipAsDisplayedBytesPerPixel = kFlipBytesPerPixel + 2 * 3 * 4;
+
 }  // namespace licht

@@ -8,7 +8,6 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
-#include "licht/colour/transfer.h"
 #include "licht/core/error.h"
 #include "licht/core/file.h"
 #include "licht/core/json_text.h"
@@ -41,19 +40,6 @@ std::string attributeOf(const ExrPicture& picture, const std::string& name) {
     const auto found = std::find_if(picture.attributes.begin(), picture.attributes.end(),
                                     [&name](const auto& attribute) { return attribute.first == name; });
     return found == picture.attributes.end() ? std::string() : found->second;
-}
-
-/// As `--tonemap none` shows it at exposure 0, before its codes are rounded.
-Image displayed(Image image) {
-    for (float& value : image.texels) value = srgbFromLinear(std::clamp(value, 0.0F, 1.0F));
-    return image;
-}
-
-double flipAsDisplayed(const MeasuredPicture& picture, const MeasuredPicture& reference) {
-    const double displayed_bytes = 2.0 * 3.0 * sizeof(float);
-    requireMemory((kFlipBytesPerPixel + displayed_bytes) * picture.mean.width * picture.mean.height,
-                  fmt::format("{}: FLIP takes", picture.name));
-    return flip(displayed(picture.mean), displayed(reference.mean));
 }
 
 /// What an attribute says as a number, or null.
@@ -145,7 +131,9 @@ Comparison comparePictures(const MeasuredPicture& picture, const MeasuredPicture
     result.trimmed_rel_mse = trimmedRelMse(a, b);
     result.mse = mse(a, b);
     result.largest = largestDifference(a, b);
-    result.flip = flipAsDisplayed(picture, reference);
+    requireMemory(kFlipAsDisplayedBytesPerPixel * a.width * a.height,
+                  fmt::format("{}: FLIP takes", picture.name));
+    result.flip = flipAsDisplayed(a, b);
     result.mean_ratio = channelMeans(a);
     const std::vector<double> reference_means = channelMeans(b);
     for (std::size_t c = 0; c < reference_means.size(); ++c) result.mean_ratio[c] /= reference_means[c];
