@@ -1,7 +1,5 @@
 #include "licht/render/renderer.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cassert>
@@ -19,6 +17,7 @@
 #include "licht/render/in_flight.h"
 #include "licht/render/order_sums.h"
 #include "licht/render/pass_list.h"
+#include "licht/render/preparation.h"
 #include "licht/render/programs.h"
 #include "licht/render/scene_on_device.h"
 #include "licht/render/view.h"
@@ -30,13 +29,6 @@ namespace {
 // A submission that runs longer than this meets the watchdogs of desktop systems (about two seconds) on a
 // slow moment.
 constexpr double kSliceSeconds = 0.1;
-
-// A size that memory will not do is said before the scene is brought to the device.
-gpu::Device& withRoom(gpu::Device& device, const RenderSettings& settings) {
-    device.requireMemory(bytesOfPicture(settings.size, settings),
-                         fmt::format("a picture of {}x{} takes", settings.size.x, settings.size.y));
-    return device;
-}
 
 }  // namespace
 

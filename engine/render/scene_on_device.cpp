@@ -1,7 +1,7 @@
 #include "licht/render/scene_on_device.h"
 
+#include "licht/render/preparation.h"
 #include "licht/shared/constants.h"
-#include "licht/shared/effects.h"
 
 namespace licht {
 namespace {
@@ -28,15 +28,6 @@ bool drawsToo(const gpu::SpecConstants& compiled, gpu::SpecConstants wanted) {
 }
 
 }  // namespace
-
-Effects effectsOf(const Scene& scene, const RenderSettings& settings) {
-    Effects effects = settings.all_effects ? allEffects() : detectEffects(scene);
-    if (settings.flatten_instances) {
-        effects.on[kEffectInstances] = false;
-        effects.evidence[kEffectInstances].clear();
-    }
-    return effects;
-}
 
 SceneOnDevice::SceneOnDevice(gpu::Device& device, const Scene& scene, const Effects& effects,
                              const RenderSettings& settings)

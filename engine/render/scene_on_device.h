@@ -44,7 +44,4 @@ private:
     std::vector<std::size_t> surfaces_;  ///< counts by which scenes of the same surfaces are known
 };
 
-/// What is compiled: what the scene calls for, and the settings.
-Effects effectsOf(const Scene& scene, const RenderSettings& settings);
-
 }  // namespace licht
