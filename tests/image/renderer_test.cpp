@@ -154,8 +154,11 @@ TEST(Passes, AreThoseOfTheList) {
         const Kind kind{"", queues, queues, false};
         RenderSettings settings = settingsOf(kind, {16, 16});
         settings.denoise = Denoise::spatiotemporal;
+        settings.moves = true;
         Renderer renderer(gpu::testDevice(), scene, litFloorCamera(), settings);
-        for (int i = 0; i < 2; ++i) renderer.renderSample();  // one alone is not filtered
+        renderer.renderSample();
+        renderer.setCamera(movedCamera(litFloorCamera()));  // so that there is a history
+        renderer.renderSample();
         static_cast<void>(renderer.readDisplay(Tonemap::none, 0.0F));
         double following = 0.0;
         for (const auto& [name, time] : renderer.statistics().passes) {

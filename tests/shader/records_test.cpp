@@ -123,6 +123,8 @@ std::map<std::string, Record> hostRecords() {
         LICHT_RECORD(FilterPush, LICHT_MEMBER(FilterPush, size), LICHT_MEMBER(FilterPush, orthographic),
                      LICHT_MEMBER(FilterPush, stride), LICHT_MEMBER(FilterPush, count_a),
                      LICHT_MEMBER(FilterPush, count_b)),
+        LICHT_RECORD(ReprojectPush, LICHT_MEMBER(ReprojectPush, sample_index),
+                     LICHT_MEMBER(ReprojectPush, fresh)),
         LICHT_RECORD(SamplePush, LICHT_MEMBER(SamplePush, sample_index),
                      LICHT_MEMBER(SamplePush, count_before), LICHT_MEMBER(SamplePush, first_row),
                      LICHT_MEMBER(SamplePush, row_count)),
