@@ -1,5 +1,7 @@
 #include "licht/run/plan.h"
 
+#include <algorithm>
+
 #include "licht/core/error.h"
 #include "licht/gpu/lanes.h"
 #include "licht/run/queue_choice.h"
@@ -18,7 +20,8 @@ StopRules stopRules(const RunSettings& run) {
     return rules;
 }
 
-RunPlan planRun(gpu::Device& device, const Scene& scene, const Camera& camera, const RunSettings& run) {
+RunPlan planRun(gpu::Device& device, const Scene& scene, const Camera& camera, const RunSettings& run,
+                std::uint32_t pictures) {
     if (run.render.adaptive && run.render.denoise != Denoise::none)
         throw InputError("--denoise filters samples that are as many in every pixel: leave out --adaptive");
     RunPlan plan{run.render, stopRules(run), {}, {}, {}};
@@ -30,8 +33,11 @@ RunPlan planRun(gpu::Device& device, const Scene& scene, const Camera& camera, c
     }
     if (run.render.regularise)
         plan.regularisation = measureRegularisation(device, scene, camera, plan.settings);
+    StopRules whole = plan.rules;
+    whole.samples = static_cast<std::uint32_t>(
+        std::min<std::uint64_t>(std::uint64_t{whole.samples} * pictures, kMostSamples));
     const QueueChoice choice =
-        chooseQueues(run.queues, plan.settings, plan.rules,
+        chooseQueues(run.queues, plan.settings, whole,
                      {runsInLockstep(device) && offersBallots(device), device.ballotTrouble()});
     plan.settings.queues = choice.queues;
     plan.queue_trouble = choice.trouble;

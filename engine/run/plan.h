@@ -23,7 +23,9 @@ struct RunPlan {
                                      ///< what queues were to do; else empty
 };
 
-/// Sends the pilots that a run asks for, and chooses between queues and one kernel.
-RunPlan planRun(gpu::Device& device, const Scene& scene, const Camera& camera, const RunSettings& run);
+/// Sends the pilots that a run asks for, and chooses between queues and one kernel. pictures: so many are
+/// drawn, each with the run's samples.
+RunPlan planRun(gpu::Device& device, const Scene& scene, const Camera& camera, const RunSettings& run,
+                std::uint32_t pictures = 1);
 
 }  // namespace licht

@@ -7,6 +7,8 @@
 #include <optional>
 
 #include "licht/core/clock.h"
+#include "licht/core/memory.h"
+#include "licht/measure/flip.h"
 #include "licht/measure/metrics.h"
 #include "licht/measure/statistics.h"
 #include "licht/run/disocclusion.h"
@@ -26,7 +28,7 @@ class Truths {
 public:
     Truths(gpu::Device& device, const Scene& scene, const Camera& camera, RenderSettings settings,
            std::uint32_t samples)
-        : samples_((samples + 1) / 2), bounds_(sceneBounds(scene)), size_(settings.size) {
+        : samples_(samples / 2 + samples % 2), bounds_(sceneBounds(scene)), size_(settings.size) {
         settings.denoise = Denoise::none;
         settings.moves = false;
         settings.layers = {};
@@ -37,14 +39,20 @@ public:
         }
     }
 
-    /// Of a frame; one that shows what the last one did is not made again.
-    const Truth& of(const PathFrame& frame) {
+    /// Of a frame; one that shows what the last one did is not made again. Null where it is interrupted: a
+    /// truth takes as long as hundreds of frames.
+    const Truth* of(const PathFrame& frame, const std::function<bool()>& interrupted) {
         const ViewRecord view = makeView(frame.camera, size_, bounds_);
-        if (!truth_.mean.texels.empty() && !frame.scene && std::memcmp(&view, &truth_.view, sizeof(view)) == 0) return truth_;
+        if (!truth_.mean.texels.empty() && !frame.scene &&
+            std::memcmp(&view, &truth_.view, sizeof(view)) == 0)
+            return &truth_;
         std::array<Film, 2> films;
         for (std::size_t i = 0; i < films.size(); ++i) {
             showFrame(*renderers_[i], {frame.camera, ViewChange::cut, frame.scene});
-            for (std::uint32_t sample = 0; sample < samples_; ++sample) renderers_[i]->renderSample();
+            for (std::uint32_t sample = 0; sample < samples_; ++sample) {
+                if (interrupted && interrupted()) return nullptr;
+                renderers_[i]->renderSample();
+            }
             films[i] = renderers_[i]->readFilm();
         }
         const Image one = withoutAlpha(films[0].mean);
@@ -52,7 +60,7 @@ public:
         for (std::size_t i = 0; i < one.texels.size(); ++i)
             truth_.mean.texels[i] = 0.5F * (truth_.mean.texels[i] + one.texels[i]);
         truth_.rel_mse = relMse(one, truth_.mean);  // a quarter of the difference's square
-        return truth_;
+        return &truth_;
     }
 
 private:
@@ -82,10 +90,11 @@ public:
         for (std::uint32_t i = 0; i < samples_; ++i) renderer_->renderSample();
         previous_ = std::move(picture_);
         picture_ = withoutAlpha(renderer_->readFilm().mean);
-        result_.frames.push_back({secondsSince(start), 0.0});
+        result_.frames.push_back({secondsSince(start), 0.0, 0.0});
     }
     void compare(const Truth& truth) {
         result_.frames.back().rel_mse = relMse(picture_, truth.mean) - truth.rel_mse;
+        result_.frames.back().flip = flipAsDisplayed(picture_, truth.mean);
     }
     void addFlicker(const Image& before, const Image& now) {
         double sum = 0.0;
@@ -143,6 +152,10 @@ double TemporalMode::relMse() const {
     return meanOf(frames, &TemporalFrame::rel_mse);
 }
 
+double TemporalMode::flip() const {
+    return meanOf(frames, &TemporalFrame::flip);
+}
+
 double TemporalMode::seconds() const {
     return meanOf(frames, &TemporalFrame::seconds);
 }
@@ -152,6 +165,7 @@ TemporalAccuracy measureTemporal(gpu::Device& device, const Scene& scene, std::s
                                  const TemporalHooks& hooks) {
     RenderSettings settings = asked;
     settings.scene_moves = path.front().scene != nullptr;
+    requireMemory(kFlipAsDisplayedBytesPerPixel * settings.size.x * settings.size.y, "FLIP takes");
     Truths truths(device, scene, path.front().camera, settings, request.reference_samples);
     std::vector<Runner> runners;
     for (const Denoise mode : kTemporalModes)
@@ -159,27 +173,27 @@ TemporalAccuracy measureTemporal(gpu::Device& device, const Scene& scene, std::s
     TemporalAccuracy result;
     std::optional<Truth> before;
     for (std::size_t frame = 0; frame < path.size(); ++frame) {
-        if (hooks.interrupted && hooks.interrupted()) break;
-        const Truth& truth = truths.of(path[frame]);
-        result.reference_rel_mse += truth.rel_mse;
+        const Truth* truth = truths.of(path[frame], hooks.interrupted);
+        if (truth == nullptr || (hooks.interrupted && hooks.interrupted())) break;
+        result.reference_rel_mse += truth->rel_mse;
         for (Runner& runner : runners) {
             runner.draw(path[frame]);
-            runner.compare(truth);
+            runner.compare(*truth);
         }
         if (before && path[frame].change == ViewChange::motion) {
             const std::vector<std::uint8_t> disoccluded =
-                findDisoccluded({before->view, before->depth}, {truth.view, truth.depth});
+                findDisoccluded({before->view, before->depth}, {truth->view, truth->depth});
             for (Runner& runner : runners) {
-                runner.addFlicker(before->mean, truth.mean);
-                runner.addGhost(runners.front().picture(), truth.mean, disoccluded);
+                runner.addFlicker(before->mean, truth->mean);
+                runner.addGhost(runners.front().picture(), truth->mean, disoccluded);
             }
         }
-        before = truth;
-        if (hooks.progress) hooks.progress(frame + 1, path.size());
+        before = *truth;
+        result.frames = frame + 1;
+        if (hooks.progress) hooks.progress(result.frames, path.size());
     }
     for (const Runner& runner : runners) result.modes.push_back(runner.result());
-    result.reference_rel_mse /=
-        std::max<double>(1.0, static_cast<double>(result.modes.front().frames.size()));
+    if (result.frames > 0) result.reference_rel_mse /= static_cast<double>(result.frames);
     return result;
 }
 

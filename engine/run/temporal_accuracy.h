@@ -19,6 +19,7 @@ inline constexpr std::array kTemporalModes{Denoise::none, Denoise::temporal, Den
 struct TemporalFrame {
     double seconds = 0.0;  ///< of rendering and filtering
     double rel_mse = 0.0;  ///< against the frame's truth, whose own error is taken off
+    double flip = 0.0;     ///< how much of the difference to it is seen
 };
 
 /// A mean over pixels, and how sure it is; negative standard error: there were no two.
@@ -37,13 +38,16 @@ struct TemporalMode {
     /// is brought there from elsewhere. Zero on average where nothing is.
     MeanOfPixels ghost;
 
-    [[nodiscard]] double relMse() const;   ///< mean over the frames
-    [[nodiscard]] double seconds() const;  ///< likewise
+    // Means over the frames; zero where there are none.
+    [[nodiscard]] double relMse() const;
+    [[nodiscard]] double flip() const;
+    [[nodiscard]] double seconds() const;
 };
 
 struct TemporalAccuracy {
     std::vector<TemporalMode> modes;  ///< as kTemporalModes
     double reference_rel_mse = 0.0;   ///< of the references, mean over the frames; taken off
+    std::size_t frames = 0;           ///< that were measured, fewer than the path's where interrupted
 };
 
 struct TemporalRequest {

@@ -126,7 +126,7 @@ std::vector<Setting> generalRows() {
             choice({"--tonemap", "CURVE", look, kForRun | kForView, "Display curve: {values}"},
                    &RunSettings::tonemap),
             count({"--spp", "N", stop, kForRun,
-                   fmt::format("Samples per pixel (default: {} unless --time or --error is given)",
+                   fmt::format("Samples per pixel (default: {} unless --time, --error or --path is given)",
                                kDefaultSamples)},
                   &RunSettings::samples, 1, kMostSamples),
             parsed({"--time", "SECONDS", stop, kForRun, "Stop after that many seconds of rendering"},

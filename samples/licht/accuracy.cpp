@@ -16,7 +16,9 @@
 #include "samples/licht/interrupt.h"
 #include "samples/licht/outputs.h"
 #include "samples/licht/plot.h"
+#include "samples/licht/render_steps.h"
 #include "samples/licht/scene_in_time.h"
+#include "samples/licht/text.h"
 
 namespace licht {
 namespace {
@@ -30,18 +32,23 @@ Json accuracyJson(const AccuracyOptions& options, const Shot& shot, const Tempor
               {"height", shot.size.y},
               {"path", options.path.path},
               {"fps", options.path.rate},
-              {"spp", options.run.samples.value_or(1)},
+              {"spp", options.run.samples.value_or(kDefaultFrameSamples)},
               {"reference_spp", options.reference_samples},
               {"reference_relmse", accuracy.reference_rel_mse},
+              {"frames", options.path.frames},
+              {"measured_frames", accuracy.frames},
               {"modes", Json::array()}};
     for (const TemporalMode& mode : accuracy.modes) {
         Json frames = Json::array();
         for (std::size_t i = 0; i < mode.frames.size(); ++i)
-            frames.push_back(
-                {{"frame", i}, {"relmse", mode.frames[i].rel_mse}, {"ms", 1000.0 * mode.frames[i].seconds}});
+            frames.push_back({{"frame", i},
+                              {"relmse", mode.frames[i].rel_mse},
+                              {"flip", mode.frames[i].flip},
+                              {"ms", 1000.0 * mode.frames[i].seconds}});
         json["modes"].push_back(
             {{"mode", nameOf(mode.mode)},
              {"relmse", mode.relMse()},
+             {"flip", mode.flip()},
              {"ms_per_frame", 1000.0 * mode.seconds()},
              {"flicker", mode.flicker},
              {"ghost",
@@ -55,19 +62,20 @@ Json accuracyJson(const AccuracyOptions& options, const Shot& shot, const Tempor
 }
 
 std::string accuracyCsv(const TemporalAccuracy& accuracy) {
-    std::string text = "mode,frame,relmse,ms\n";
+    std::string text = "mode,frame,relmse,flip,ms\n";
     for (const TemporalMode& mode : accuracy.modes)
         for (std::size_t i = 0; i < mode.frames.size(); ++i)
-            text += fmt::format("{},{},{:.6g},{:.3f}\n", nameOf(mode.mode), i, mode.frames[i].rel_mse,
-                                1000.0 * mode.frames[i].seconds);
+            text += fmt::format("{},{},{:.6g},{:.6g},{:.3f}\n", nameOf(mode.mode), i, mode.frames[i].rel_mse,
+                                mode.frames[i].flip, 1000.0 * mode.frames[i].seconds);
     return text;
 }
 
 std::string accuracySvg(const AccuracyOptions& options, const TemporalAccuracy& accuracy) {
-    Plot plot{fmt::format("{}, path {}: error of each frame", options.source.scene, options.path.path),
-              "frame",
-              "relMSE",
-              {}};
+    Plot plot{
+        oneLine(fmt::format("{}, path {}: error of each frame", options.source.scene, options.path.path)),
+        "frame",
+        "relMSE",
+        {}};
     for (const TemporalMode& mode : accuracy.modes) {
         Curve curve{std::string(nameOf(mode.mode)), {}};
         for (std::size_t i = 0; i < mode.frames.size(); ++i)
@@ -78,23 +86,23 @@ std::string accuracySvg(const AccuracyOptions& options, const TemporalAccuracy& 
 }
 
 std::string accuracyText(const TemporalAccuracy& accuracy) {
-    std::string text = fmt::format("{:<16}{:>10}{:>10}{:>10}{:>10}{:>20}\n", "mode", "ms/frame", "relMSE",
-                                   "of raw", "flicker", "ghost");
+    if (accuracy.frames == 0) return "no frame was measured\n";
+    std::string text = fmt::format("{:<16}{:>10}{:>10}{:>10}{:>9}{:>10}{:>20}\n", "mode", "ms/frame",
+                                   "relMSE", "of raw", "FLIP", "flicker", "ghost");
     const TemporalMode& raw = accuracy.modes.front();
     for (const TemporalMode& mode : accuracy.modes) {
         const std::string ghost =
             mode.ghost.standard_error < 0.0
                 ? "-"
                 : fmt::format("{:.2g} +- {:.1g}", mode.ghost.value, mode.ghost.standard_error);
-        text += fmt::format("{:<16}{:>10.1f}{:>10.3g}{:>10}{:>10.3g}{:>20}\n", nameOf(mode.mode),
-                            1000.0 * mode.seconds(), mode.relMse(),
-                            fmt::format("1/{:.3g}", raw.relMse() / mode.relMse()), mode.flicker, ghost);
+        // An error that is all the truth's own may be negative without it.
+        const std::string share = raw.relMse() > 0.0 && mode.relMse() > 0.0
+                                      ? fmt::format("1/{:.3g}", raw.relMse() / mode.relMse())
+                                      : "-";
+        text += fmt::format("{:<16}{:>10.1f}{:>10.3g}{:>10}{:>9.5f}{:>10.3g}{:>20}\n", nameOf(mode.mode),
+                            1000.0 * mode.seconds(), mode.relMse(), share, mode.flip(), mode.flicker, ghost);
     }
     return text + fmt::format("relMSE of the references, taken off: {:.2g}\n", accuracy.reference_rel_mse);
-}
-
-void write(const std::optional<std::filesystem::path>& file, const std::string& text) {
-    if (file) writeFile(*file, std::as_bytes(std::span(text)));
 }
 
 }  // namespace
@@ -107,18 +115,24 @@ int accuracy(const AccuracyOptions& options) {
         outputs.push_back(*file);
     }
     const NamedScene source = loadScene(options.source);
-    requireOwnFiles(outputs, source.scene.files);
+    requireOwnFiles(outputs, filesRead(options.source, source.scene, options.path));
     const Shot shot = chooseShot(source, options.source.camera, options.size);
-    std::vector<PathFrame> path = followPath(options.path, source, shot.camera);
+    std::vector<PathFrame> path = followPath(options.path, source, shot);
     addScenes(path, source, options.source, options.path.rate);
 
     std::optional<ProgressLine> progress(std::in_place, stderr, options.quiet);
-    gpu::DeviceOptions device_options;
-    device_options.device = options.device;
-    gpu::Device device(device_options);
-    RenderSettings settings = options.run.render;
-    settings.size = shot.size;
-    const InterruptWatch interrupt;
+    gpu::Device device(deviceOptions(options.device, progress));
+    RunSettings run = options.run;
+    run.render.size = shot.size;
+    run.samples = run.samples.value_or(kDefaultFrameSamples);
+    const RunPlan plan = planRun(device, source.scene, path.front().camera, run, options.path.frames);
+    progress->clear();
+    if (!options.quiet) {
+        warnOfPlan(plan, device.report());
+        printWarnings(source.scene);
+    }
+
+    InterruptWatch interrupt;
     const TemporalHooks hooks{
         [&interrupt] { return interrupt.asked(); },
         [&progress, start = Clock::now()](std::size_t done, std::size_t frames) {
@@ -127,15 +141,22 @@ int accuracy(const AccuracyOptions& options) {
                 fmt::format("frame {}/{}  {:.1f} s  {:.1f} s left", done, frames, seconds,
                             seconds * static_cast<double>(frames - done) / static_cast<double>(done)));
         }};
-    const TemporalAccuracy accuracy =
-        measureTemporal(device, source.scene, path, settings,
-                        {options.run.samples.value_or(1), options.reference_samples}, hooks);
+    const TemporalAccuracy accuracy = measureTemporal(device, source.scene, path, plan.settings,
+                                                      {*run.samples, options.reference_samples}, hooks);
     progress.reset();
+    interrupt.shield();
+    printOut(accuracyText(accuracy));
+    FilesWritten files;
+    const auto write = [&files](const std::optional<std::filesystem::path>& file, const std::string& text) {
+        if (file) files.add(*file, [&] { writeFile(*file, std::as_bytes(std::span(text))); });
+    };
     write(options.json, jsonText(accuracyJson(options, shot, accuracy)));
     write(options.csv, accuracyCsv(accuracy));
     write(options.svg, accuracySvg(options, accuracy));
-    printOut(accuracyText(accuracy));
-    return device.validationMessages().empty() ? 0 : 1;
+    if (accuracy.frames < path.size())
+        printError(
+            fmt::format("licht: interrupted: measured {} of {} frames\n", accuracy.frames, path.size()));
+    return endRun(files, device);
 }
 
 }  // namespace licht

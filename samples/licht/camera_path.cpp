@@ -5,10 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "licht/core/error.h"
+#include "licht/render/view.h"
 #include "samples/licht/orbit_camera.h"
 #include "samples/licht/path_file.h"
+#include "samples/licht/text.h"
 
 namespace licht {
 namespace {
@@ -29,8 +32,10 @@ double toAndFro(double seconds) {
     return std::sin(2.0 * glm::pi<double>() * seconds / kPeriod);
 }
 
+/// In its middle exactly what it began with.
 OrbitCamera swung(OrbitCamera camera, double seconds) {
-    camera.orbit(static_cast<float>(glm::pi<double>() * kSwing * toAndFro(seconds)), 0.0F);
+    const double share = toAndFro(seconds);
+    if (share != 0.0) camera.orbit(static_cast<float>(glm::pi<double>() * kSwing * share), 0.0F);
     return camera;
 }
 
@@ -44,7 +49,8 @@ PathFrame rest(const OrbitCamera& start, const Moment& /*now*/) {
 
 PathFrame strafe(const OrbitCamera& start, const Moment& now) {
     OrbitCamera camera = start;
-    camera.walk(static_cast<float>(kStride * toAndFro(now.seconds)), 0.0F);
+    const double share = toAndFro(now.seconds);
+    if (share != 0.0) camera.walk(static_cast<float>(kStride * share), 0.0F);
     return {camera.camera(), ViewChange::motion};
 }
 
@@ -94,16 +100,21 @@ std::span<const BuiltinPath> builtinPaths() {
     return kPaths;
 }
 
-std::vector<PathFrame> followPath(const PathRequest& request, const NamedScene& source, const Camera& start) {
+bool isPathFile(const PathRequest& request) {
+    return lowerCase(std::filesystem::path(request.path).extension().string()) == ".json";
+}
+
+std::vector<PathFrame> followPath(const PathRequest& request, const NamedScene& source, const Shot& start) {
     const auto row = std::find_if(kRows.begin(), kRows.end(),
                                   [&](const Row& known) { return known.path.name == request.path; });
-    const OrbitCamera at_start(start, sceneBounds(source.scene));
+    const Bounds bounds = sceneBounds(source.scene);
+    const OrbitCamera at_start(start.camera, bounds);
     std::optional<CameraKeys> keys;
     if (row == kRows.end()) {
-        if (!request.path.ends_with(".json"))
+        if (!isPathFile(request))
             throw InputError(
                 fmt::format("--path {}: is none of {}and no .json file", request.path, pathNames()));
-        keys = readPathFile(request.path, source.scene, start);
+        keys = readPathFile(request.path, source.scene, start.camera);
     }
     std::vector<PathFrame> frames;
     for (std::uint32_t i = 0; i < request.frames; ++i) {
@@ -113,6 +124,7 @@ std::vector<PathFrame> followPath(const PathRequest& request, const NamedScene& 
                                                     ? ViewChange::cut
                                                     : ViewChange::motion}
                  : row->at(at_start, {i, request.frames, seconds}));
+        static_cast<void>(makeView(frames.back().camera, start.size, bounds));  // throws
     }
     return frames;
 }

@@ -19,8 +19,12 @@ struct BuiltinPath {
 /// In any scene: they begin at the camera that was chosen.
 std::span<const BuiltinPath> builtinPaths();
 
-/// `start`: the camera that was chosen; files take from it what they do not say. Throws InputError, naming
-/// file and key, where a file is no path (samples/licht/README.md, "Camera paths").
-std::vector<PathFrame> followPath(const PathRequest& request, const NamedScene& source, const Camera& start);
+/// Whether a path is read from the file of its name.
+bool isPathFile(const PathRequest& request);
+
+/// `start`: from where the scene is seen first; files take from it what they do not say. Throws InputError,
+/// naming file and key, where a file is no path (samples/licht/README.md, "Camera paths"), and where one of
+/// its views cannot be drawn in that size.
+std::vector<PathFrame> followPath(const PathRequest& request, const NamedScene& source, const Shot& start);
 
 }  // namespace licht

@@ -15,6 +15,16 @@
 namespace licht {
 namespace {
 
+void requireSampleIndices(const RunSettings& run, const std::optional<PathRequest>& path) {
+    // Samples go on counting from frame to frame.
+    const std::uint64_t frames = path ? path->frames : 1;
+    const std::uint64_t samples = run.samples.value_or(kDefaultFrameSamples);
+    if (frames * samples > kMostSamples - run.render.first_sample)
+        throw InputError(
+            fmt::format("--first-sample {} and {}--spp {}: sample indices end at {}", run.render.first_sample,
+                        path ? fmt::format("--frames {} of ", frames) : "", samples, kMostSamples));
+}
+
 void checkTogether(const RenderOptions& options) {
     const auto isExr = [](const std::filesystem::path& path) {
         return lowerCase(path.extension().string()) == ".exr";
@@ -31,9 +41,7 @@ void checkTogether(const RenderOptions& options) {
     if (options.path && (run.seconds || run.error || run.render.adaptive))
         throw InputError(
             "--path: its frames have --spp samples each; leave out --time, --error and --adaptive");
-    if (run.samples && *run.samples > kMostSamples - run.render.first_sample)
-        throw InputError(fmt::format("--first-sample {} and --spp {}: sample indices end at {}",
-                                     run.render.first_sample, *run.samples, kMostSamples));
+    requireSampleIndices(run, options.path);
 }
 
 /// An option whose value may be left out takes it behind a "="; a word that can only be its value is joined.
@@ -141,7 +149,10 @@ Command parseCommandLine(int argument_count, const char* const* arguments) {
     if (view_app->parsed()) return view;
     if (bench_app->parsed()) return bench;
     if (compare_app->parsed()) return compare;
-    if (accuracy_app->parsed()) return accuracy;
+    if (accuracy_app->parsed()) {
+        requireSampleIndices(accuracy.run, accuracy.path);
+        return accuracy;
+    }
     if (!render_app->parsed())
         throw InputError(
             "a subcommand is needed: render, view, info, bench, devices, compare or accuracy (see 'licht "

@@ -136,10 +136,13 @@ CLI::Option* addPath(CLI::App& app, const std::string& meaning,
 
 void addSequence(CLI::App& app, RenderOptions& options) {
     CLI::Option* path =
-        addPath(app, "Follow a camera's path, a picture each frame", [&options]() -> PathRequest& {
-            if (!options.path) options.path.emplace();
-            return *options.path;
-        });
+        addPath(app,
+                fmt::format("Follow a camera's path, a picture of --spp samples (default: {}) each frame",
+                            kDefaultFrameSamples),
+                [&options]() -> PathRequest& {
+                    if (!options.path) options.path.emplace();
+                    return *options.path;
+                });
     for (const char* part : {"--frames", "--fps"}) app.get_option(part)->needs(path);
     app.add_flag("--resume", options.resume, "Go on behind the path's frames that are there")->needs(path);
 }
@@ -273,10 +276,16 @@ void addAccuracy(CLI::App& app, AccuracyOptions& options) {
     addSize(app, options.size, "as for render");
     addDevice(app, options.device);
     for (const Setting& setting : settingsTable())
-        if (setting.option == "--spp" || setting.option == "--bounces" || setting.option == "--seed")
+        if (setting.option == "--bounces" || setting.option == "--seed")
             addSetting(app, setting, options.run);
+    addValue(app, "--spp", "N",
+             fmt::format("Samples per pixel of a frame (default: {})", kDefaultFrameSamples),
+             [&options](std::string_view option, std::string_view text) {
+                 options.run.samples = parseCount32(option, text, 1, kMostSamples);
+             });
     addValue(app, "--reference-spp", "N",
-             fmt::format("Samples of the pictures that are taken for the truth (default: {})",
+             fmt::format("Samples of the pictures that are taken for the truth, rounded up to even "
+                         "(default: {})",
                          kDefaultReferenceSamples),
              [&options](std::string_view option, std::string_view text) {
                  options.reference_samples = parseCount32(option, text, 2, kMostSamples);
@@ -289,9 +298,11 @@ void addAccuracy(CLI::App& app, AccuracyOptions& options) {
     addFile("--json", "Write all numbers as JSON", options.json);
     addFile("--csv", "Write the frames' numbers as a table", options.csv);
     addFile("--svg", "Draw the frames' errors as a plot", options.svg);
-    app.add_flag("--quiet", options.quiet, "Show no progress");
+    app.add_flag("--quiet", options.quiet, "Show no progress and no warnings");
     app.footer(
-        "relMSE: against the converged picture of the same frame, whose own error is taken off.\n"
+        "relMSE: against the converged picture of the same frame, whose own error is taken off; of raw: by "
+        "the first\n"
+        "row's. FLIP: how much of the difference is seen, as compare says it.\n"
         "flicker: mean change from frame to frame beyond that of the converged pictures, over their mean.\n"
         "ghost: relative squared error beyond that of raw frames, where a frame shows what the one before "
         "did not.");

@@ -6,11 +6,12 @@
 
 namespace licht {
 
-FramePattern::FramePattern(const std::filesystem::path& pattern) {
-    const std::string text = pattern.string();
+FramePattern::FramePattern(const std::filesystem::path& pattern) : folder_(pattern.parent_path()) {
+    const std::string text = pattern.filename().string();
     const auto refuse = [&] {
-        throw InputError(fmt::format(
-            "{}: the name of a sequence's frames has one number in it, as in frame-%04d.exr", text));
+        throw InputError(
+            fmt::format("{}: the name of a sequence's frames has one number in it, as in frame-%04d.exr",
+                        pattern.string()));
     };
     const std::size_t sign = text.find('%');
     if (sign == std::string::npos || text.find('%', sign + 1) != std::string::npos) refuse();
@@ -25,7 +26,7 @@ FramePattern::FramePattern(const std::filesystem::path& pattern) {
 }
 
 std::filesystem::path FramePattern::of(std::uint32_t frame) const {
-    return fmt::format("{}{:0{}}{}", before_, frame, places_, behind_);
+    return folder_ / fmt::format("{}{:0{}}{}", before_, frame, places_, behind_);
 }
 
 }  // namespace licht

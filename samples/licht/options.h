@@ -26,6 +26,7 @@ struct SizeRequest {
 inline constexpr std::uint32_t kDefaultFrames = 96;
 inline constexpr std::uint32_t kMostFrames = 1'000'000;
 inline constexpr double kDefaultRate = 24.0;
+inline constexpr std::uint32_t kDefaultFrameSamples = 1;  ///< per pixel of a path's frame
 inline constexpr double kMostRate = 1e6;
 inline constexpr std::uint32_t kDefaultReferenceSamples = 512;  ///< of a frame that others are measured by
 

@@ -1,6 +1,7 @@
 #include "samples/licht/path_file.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -8,6 +9,10 @@
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
 
 #include "licht/core/error.h"
 #include "licht/core/file.h"
@@ -20,6 +25,20 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 26U;
+/// Of coordinates, metres, and of times, seconds: squares of floats beyond have no floats.
+constexpr double kLargest = 1e15;
+
+bool isUsable(const Json& value) {
+    return value.is_number() && std::abs(value.get<double>()) <= kLargest;
+}
+
+/// Of an object, a member that it may not have.
+std::optional<std::string> strangerIn(const Json& object, std::span<const std::string_view> known) {
+    for (const auto& [name, value] : object.items())
+        if (std::find(known.begin(), known.end(), name) == known.end())
+            return fmt::format("has '{}', which is none of {}", oneLine(name), fmt::join(known, ", "));
+    return std::nullopt;
+}
 
 /// One key of a file, and where it stands there.
 class KeyReader {
@@ -28,10 +47,7 @@ public:
         if (!json.is_object()) refuse("is no object");
         constexpr std::array<std::string_view, 7> kKnown{"time", "camera", "eye", "target",
                                                          "up",   "yfov",   "cut"};
-        for (const auto& [name, value] : json.items())
-            if (std::find(kKnown.begin(), kKnown.end(), name) == kKnown.end())
-                refuse(fmt::format("has '{}', which is none of time, camera, eye, target, up, yfov, cut",
-                                   oneLine(name)));
+        if (const auto stranger = strangerIn(json, kKnown)) refuse(*stranger);
     }
 
     [[noreturn]] void refuse(std::string_view why) const {
@@ -40,22 +56,14 @@ public:
     [[nodiscard]] bool has(const char* name) const { return json_.contains(name); }
     [[nodiscard]] double number(const char* name) const {
         const Json& value = json_.at(name);
-        // What a float cannot hold is no number here.
-        if (!value.is_number() || !(std::abs(value.get<double>()) <= 1e30))
-            refuse(fmt::format("has no finite number as '{}'", name));
+        if (!isUsable(value)) refuse(fmt::format("has no number up to {:g} as '{}'", kLargest, name));
         return value.get<double>();
     }
     [[nodiscard]] glm::dvec3 vector(const char* name) const {
         const Json& value = json_.at(name);
-        if (!value.is_array() || value.size() != 3) refuse(fmt::format("has no three numbers as '{}'", name));
-        glm::dvec3 result;
-        for (int i = 0; i < 3; ++i) {
-            const Json& part = value[static_cast<std::size_t>(i)];
-            if (!part.is_number() || !(std::abs(part.get<double>()) <= 1e30))
-                refuse(fmt::format("has no three finite numbers as '{}'", name));
-            result[i] = part.get<double>();
-        }
-        return result;
+        if (!value.is_array() || value.size() != 3 || !std::all_of(value.begin(), value.end(), isUsable))
+            refuse(fmt::format("has no three numbers up to {:g} as '{}'", kLargest, name));
+        return {value[0].get<double>(), value[1].get<double>(), value[2].get<double>()};
     }
     [[nodiscard]] std::string text(const char* name) const {
         const Json& value = json_.at(name);
@@ -76,16 +84,22 @@ private:
 
 /// origin: what of the file's world is the scene's.
 mat4 worldFromView(const KeyReader& key, const glm::dvec3& origin) {
-    const vec3 eye = key.vector("eye") - origin;
-    const vec3 back = key.vector("eye") - key.vector("target");
-    const vec3 up = key.has("up") ? vec3(key.vector("up")) : vec3(0.0F, 1.0F, 0.0F);
-    const vec3 right = glm::cross(up, back);
-    if (!(glm::dot(back, back) > 0.0F)) key.refuse("looks at its own eye");
-    if (!(glm::dot(right, right) > 1e-12F * glm::dot(up, up) * glm::dot(back, back)))
+    const glm::dvec3 eye = key.vector("eye");
+    const glm::dvec3 back = eye - key.vector("target");
+    const glm::dvec3 up = key.has("up") ? key.vector("up") : glm::dvec3(0.0, 1.0, 0.0);
+    const glm::dvec3 right = glm::cross(up, back);
+    if (!(glm::dot(back, back) > 0.0)) key.refuse("looks at its own eye");
+    if (!(glm::dot(right, right) > 1e-12 * glm::dot(up, up) * glm::dot(back, back)))
         key.refuse("looks along its 'up'");
-    const vec3 z = glm::normalize(back);
-    const vec3 x = glm::normalize(right);
-    return {vec4(x, 0.0F), vec4(glm::cross(z, x), 0.0F), vec4(z, 0.0F), vec4(eye, 1.0F)};
+    const glm::dvec3 z = glm::normalize(back);
+    const glm::dvec3 x = glm::normalize(right);
+    return {vec4(x, 0.0F), vec4(glm::cross(z, x), 0.0F), vec4(z, 0.0F), vec4(eye - origin, 1.0F)};
+}
+
+float verticalAngle(const KeyReader& key) {
+    const auto radians = static_cast<float>(glm::radians(key.number("yfov")));
+    if (!(radians > 0.0F && radians < kPi)) key.refuse("has a 'yfov' that is not between 0 and 180 degrees");
+    return radians;
 }
 
 CameraKey readKey(const KeyReader& key, const Scene& scene, const Camera& start) {
@@ -95,7 +109,8 @@ CameraKey readKey(const KeyReader& key, const Scene& scene, const Camera& start)
     result.cut = key.flag("cut");
     result.camera = start;
     if (key.has("camera")) {
-        if (key.has("eye") || key.has("target")) key.refuse("has both 'camera' and 'eye' or 'target'");
+        if (key.has("eye") || key.has("target") || key.has("up"))
+            key.refuse("has both 'camera' and 'eye', 'target' or 'up'");
         const std::string name = key.text("camera");
         const std::optional<std::size_t> named = findCamera(scene, name);
         if (!named) key.refuse(fmt::format("asks for camera '{}', which is not there", name));
@@ -105,13 +120,11 @@ CameraKey readKey(const KeyReader& key, const Scene& scene, const Camera& start)
             key.refuse("has neither 'camera' nor both 'eye' and 'target'");
         result.camera.world_from_view = worldFromView(key, scene.origin);
     }
-    if (key.has("yfov")) {
-        const double degrees = key.number("yfov");
-        if (!(degrees > 0.0 && degrees < 180.0))
-            key.refuse("has a 'yfov' that is not between 0 and 180 degrees");
-        result.camera.y_fov = static_cast<float>(glm::radians(degrees));
-    }
     if (result.camera.kind != start.kind) key.refuse("has another kind of camera than the path began with");
+    if (key.has("yfov")) {
+        if (start.kind != Camera::Kind::perspective) key.refuse("has a 'yfov', but no perspective camera");
+        result.camera.y_fov = verticalAngle(key);
+    }
     return result;
 }
 
@@ -138,9 +151,13 @@ CameraKeys::CameraKeys(std::vector<CameraKey> keys) : keys_(std::move(keys)) {
     assert(!keys_.empty());
 }
 
+std::vector<CameraKey>::const_iterator CameraKeys::firstBehind(double seconds) const {
+    return std::upper_bound(keys_.begin(), keys_.end(), seconds,
+                            [](double time, const CameraKey& key) { return time < key.seconds; });
+}
+
 Camera CameraKeys::at(double seconds) const {
-    const auto behind = std::find_if(keys_.begin(), keys_.end(),
-                                     [seconds](const CameraKey& key) { return key.seconds > seconds; });
+    const auto behind = firstBehind(seconds);
     if (behind == keys_.begin()) return behind->camera;
     const CameraKey& before = *(behind - 1);
     if (behind == keys_.end() || behind->cut || before.seconds == seconds) return before.camera;
@@ -149,9 +166,8 @@ Camera CameraKeys::at(double seconds) const {
 }
 
 bool CameraKeys::cutsBetween(double before, double seconds) const {
-    return std::any_of(keys_.begin(), keys_.end(), [&](const CameraKey& key) {
-        return key.cut && key.seconds > before && key.seconds <= seconds;
-    });
+    return std::any_of(firstBehind(before), firstBehind(seconds),
+                       [](const CameraKey& key) { return key.cut; });
 }
 
 CameraKeys readPathFile(const std::filesystem::path& path, const Scene& scene, const Camera& start) {
@@ -162,6 +178,9 @@ CameraKeys readPathFile(const std::filesystem::path& path, const Scene& scene, c
     if (json.is_discarded()) throw InputError(fmt::format("{}: is no JSON", name));
     if (!json.is_object() || !json.contains("keys") || !json["keys"].is_array() || json["keys"].empty())
         throw InputError(fmt::format("{}: has no list of 'keys' with at least one", name));
+    constexpr std::array<std::string_view, 1> kKnown{"keys"};
+    if (const auto stranger = strangerIn(json, kKnown))
+        throw InputError(fmt::format("{}: {}", name, *stranger));
     std::vector<CameraKey> keys;
     for (const Json& key : json["keys"]) {
         const KeyReader reader(key, fmt::format("{}: keys[{}]", name, keys.size()));

@@ -19,13 +19,16 @@ public:
     /// At least one key.
     explicit CameraKeys(std::vector<CameraKey> keys);
 
-    /// Eye and angles between the two keys beside: straight and evenly (positions linear, directions along
-    /// the great circle). Before the first key and behind the last it rests, and it waits for a cut.
+    /// Eye, turn and angle between the two keys beside, evenly: positions linear, turns about one axis
+    /// (Shoemake 1985, Animating Rotation with Quaternion Curves). Before the first key and behind the last it
+    /// rests, and it waits for a cut.
     [[nodiscard]] Camera at(double seconds) const;
     /// Whether there is a cut after `before`, and not after `seconds`.
     [[nodiscard]] bool cutsBetween(double before, double seconds) const;
 
 private:
+    [[nodiscard]] std::vector<CameraKey>::const_iterator firstBehind(double seconds) const;
+
     std::vector<CameraKey> keys_;
 };
 

@@ -27,7 +27,7 @@ int render(const RenderOptions& options) {
     requireFilesOfItsOwn(options, source.scene, report.outputs);
 
     std::optional<ProgressLine> progress(std::in_place, stderr, options.quiet);
-    gpu::Device device(deviceOptions(options, progress));
+    gpu::Device device(deviceOptions(options.device, progress));
     RunSettings run = options.run;
     run.render.size = shot.size;
     const RunPlan plan = planRun(device, source.scene, shot.camera, run);

@@ -11,6 +11,7 @@
 #include "licht/core/file.h"
 #include "licht/image/files.h"
 #include "licht/run/process_clock.h"
+#include "samples/licht/camera_path.h"
 #include "samples/licht/exr_layers.h"
 #include "samples/licht/outputs.h"
 #include "samples/licht/series_report.h"
@@ -25,6 +26,7 @@ bool isExr(const std::filesystem::path& path) {
 
 glm::dvec3 pictureMean(const Film& film) {
     glm::dvec3 sum(0.0);
+    if (film.mean.texels.empty()) return sum;
     for (std::size_t i = 0; i + 3 < film.mean.texels.size(); i += 4)
         sum += glm::dvec3(film.mean.texels[i], film.mean.texels[i + 1], film.mean.texels[i + 2]);
     return sum / (static_cast<double>(film.size.x) * film.size.y);
@@ -103,12 +105,18 @@ void warnOfBlackness(const Film& film, double exposure) {
     printError(fmt::format("licht: warning: the picture is black: {}\n", why));
 }
 
+std::vector<std::filesystem::path> filesRead(const SceneRequest& request, const Scene& scene,
+                                             const std::optional<PathRequest>& path) {
+    std::vector<std::filesystem::path> files = scene.files;
+    if (request.environment) files.emplace_back(*request.environment);
+    if (path && isPathFile(*path)) files.emplace_back(path->path);
+    return files;
+}
+
 void requireFilesOfItsOwn(const RenderOptions& options, const Scene& scene,
                           std::vector<std::filesystem::path> outputs) {
     if (options.report) outputs.emplace_back(*options.report);
-    std::vector<std::filesystem::path> inputs = scene.files;
-    if (options.source.environment) inputs.emplace_back(*options.source.environment);
-    requireOwnFiles(outputs, inputs);
+    requireOwnFiles(outputs, filesRead(options.source, scene, options.path));
 }
 
 RenderReport beginReport(const RenderOptions& options, const NamedScene& source, const Shot& shot) {
@@ -130,9 +138,9 @@ RenderReport beginReport(const RenderOptions& options, const NamedScene& source,
     return report;
 }
 
-gpu::DeviceOptions deviceOptions(const RenderOptions& options, std::optional<ProgressLine>& progress) {
+gpu::DeviceOptions deviceOptions(const std::string& device, std::optional<ProgressLine>& progress) {
     gpu::DeviceOptions device_options;
-    device_options.device = options.device;
+    device_options.device = device;
     device_options.on_compiling = [&progress](std::string_view program) {
         if (progress) progress->announce(fmt::format("compiling '{}'", program));
     };

@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "licht/core/progress.h"
 #include "licht/gpu/device.h"
@@ -20,12 +21,16 @@ namespace licht {
 /// where the default one would replace a stranger.
 RenderReport beginReport(const RenderOptions& options, const NamedScene& source, const Shot& shot);
 
+/// What is read of a scene, its sky and a camera's path.
+std::vector<std::filesystem::path> filesRead(const SceneRequest& request, const Scene& scene,
+                                             const std::optional<PathRequest>& path);
+
 /// Throws InputError where one of the files that a run gives is one that it takes, or another one.
 void requireFilesOfItsOwn(const RenderOptions& options, const Scene& scene,
                           std::vector<std::filesystem::path> outputs);
 
 /// Long compilations show which program they are at.
-gpu::DeviceOptions deviceOptions(const RenderOptions& options, std::optional<ProgressLine>& progress);
+gpu::DeviceOptions deviceOptions(const std::string& device, std::optional<ProgressLine>& progress);
 
 /// What the plan chose.
 void notePlan(RenderReport& report, const RunPlan& plan);

@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <optional>
+#include <set>
+#include <system_error>
 
 #include "licht/core/clock.h"
+#include "licht/core/error.h"
 #include "licht/film/error_estimate.h"
 #include "licht/run/process_clock.h"
 #include "samples/licht/camera_path.h"
@@ -34,27 +36,53 @@ public:
     [[nodiscard]] std::uint32_t firstMissing(std::uint32_t frames) const {
         for (std::uint32_t frame = 0; frame < frames; ++frame)
             for (const auto& file : of(frame))
-                if (!std::filesystem::exists(file)) return frame;
+                if (!isThere(file)) return frame;
         return frames;
+    }
+    /// Throws InputError before the work is done: where a file is another one or one that is read, or could
+    /// not be written.
+    void check(const RenderOptions& options, const Scene& scene) const {
+        std::vector<std::filesystem::path> folders;
+        for (const auto& file : of(0)) {
+            checkWritable(file);  // the others lie beside it
+            folders.push_back(placeOf(file).parent_path());
+        }
+        requireFilesOfItsOwn(options, scene, of(0));
+        std::set<std::filesystem::path> taken;
+        if (options.report) taken.insert(placeOf(*options.report));
+        for (std::uint32_t frame = 0; frame < options.path->frames; ++frame) {
+            const std::vector<std::filesystem::path> files = of(frame);
+            for (std::size_t i = 0; i < files.size(); ++i) {
+                // Two patterns may meet in different frames: "1%d.png" and "%d.png" in 1 and 11.
+                if (!taken.insert(folders[i] / files[i].filename()).second)
+                    throw InputError(
+                        fmt::format("{}: cannot write, it is named for two files", files[i].string()));
+                if (!isThere(files[i])) continue;
+                checkWritable(files[i]);
+                requireFilesOfItsOwn(options, scene, files);
+            }
+        }
     }
 
 private:
+    static bool isThere(const std::filesystem::path& file) {
+        std::error_code ignored;
+        return std::filesystem::exists(file, ignored);
+    }
+    static std::filesystem::path placeOf(const std::filesystem::path& file) {
+        std::error_code ignored;
+        return std::filesystem::weakly_canonical(std::filesystem::absolute(file, ignored), ignored);
+    }
+
     std::vector<FramePattern> patterns_;
 };
 
 /// Where a sequence begins, so that frame `wanted` is as if it had begun at the first: nothing before a cut
 /// tells of what comes behind it.
 std::uint32_t firstThatTells(const std::vector<PathFrame>& path, std::uint32_t wanted) {
-    for (std::uint32_t frame = wanted; frame > 0 && frame < path.size(); --frame)
-        if (path[frame].change == ViewChange::cut) return frame;
-    return 0;
-}
-
-/// Nothing that the frames read or write may be another of them.
-void requireOwnFrames(const RenderOptions& options, const Scene& scene, const FrameFiles& files,
-                      std::uint32_t frames) {
-    for (std::uint32_t frame = 0; frame < frames; ++frame)
-        requireFilesOfItsOwn(options, scene, files.of(frame));
+    if (wanted == path.size()) return wanted;
+    while (wanted > 0 && path[wanted].change != ViewChange::cut) --wanted;
+    return wanted;
 }
 
 /// What is drawn: a frame after the other, each with its files.
@@ -66,10 +94,10 @@ public:
 
     /// Frames from `first` on; the last one's film. Stops early where a file cannot be written.
     LoopResult draw(gpu::Device& device, Renderer& renderer, std::uint32_t first, FilesWritten& written,
-                    ProgressLine& progress) {
-        const InterruptWatch interrupt;
+                    ProgressLine& progress, const InterruptWatch& interrupt) {
         const Clock::time_point start = Clock::now();
         LoopResult result;
+        describeRun(report_, device, renderer, result);
         const std::uint32_t begun = firstThatTells(path_, first);
         for (std::uint32_t frame = begun; frame < path_.size() && written.all(); ++frame) {
             const Clock::time_point frame_start = Clock::now();
@@ -96,6 +124,7 @@ public:
             progress.show(progressText(frame, secondsSince(start), begun));
         }
         if (result.stopped_by == Stop::none) result.stopped_by = Stop::samples;
+        report_.stopped_by = result.stopped_by;
         return result;
     }
 
@@ -113,9 +142,13 @@ private:
 };
 
 std::string sequenceLine(const RenderReport& report, std::size_t frames) {
-    const std::size_t drawn = report.sequence->frames.size();
-    return fmt::format("{} of {} frames in {:.2f} s, {:.1f} ms each", drawn, frames, report.render_seconds,
-                       1000.0 * report.render_seconds / static_cast<double>(std::max<std::size_t>(drawn, 1)));
+    const std::vector<FrameReport>& drawn = report.sequence->frames;
+    std::string line = fmt::format("{} of {} frames", drawn.size(), frames);
+    if (drawn.empty()) return line;
+    double seconds = 0.0;
+    for (const FrameReport& frame : drawn) seconds += frame.seconds;
+    return line + fmt::format(" in {:.2f} s, {:.1f} ms each", report.render_seconds,
+                              1000.0 * seconds / static_cast<double>(drawn.size()));
 }
 
 /// As asked, with what a sequence chooses where nobody says.
@@ -126,7 +159,7 @@ RenderOptions completed(RenderOptions options, const NamedScene& source) {
         for (std::uint32_t frame = 0; frame < options.path->frames; ++frame)
             requireNoStranger(pattern.of(frame));
     }
-    if (!options.run.samples) options.run.samples = 1;
+    if (!options.run.samples) options.run.samples = kDefaultFrameSamples;
     return options;
 }
 
@@ -137,11 +170,10 @@ int renderSequence(const RenderOptions& asked) {
     const NamedScene source = loadScene(asked.source);
     const Shot shot = chooseShot(source, asked.source.camera, asked.size);
     const RenderOptions options = completed(asked, source);
-    std::vector<PathFrame> path = followPath(*options.path, source, shot.camera);
+    std::vector<PathFrame> path = followPath(*options.path, source, shot);
     addScenes(path, source, options.source, options.path->rate);
     const FrameFiles files(options.outputs);
-    requireOwnFrames(options, source.scene, files, options.path->frames);
-    for (const auto& file : files.of(0)) checkWritable(file);
+    files.check(options, source.scene);
     if (options.report) checkWritable(*options.report);
     RenderReport report = beginReport(options, source, shot);
     report.outputs.clear();
@@ -149,12 +181,12 @@ int renderSequence(const RenderOptions& asked) {
     report.load_seconds = secondsSince(load_start);
 
     std::optional<ProgressLine> progress(std::in_place, stderr, options.quiet);
-    gpu::Device device(deviceOptions(options, progress));
+    gpu::Device device(deviceOptions(options.device, progress));
     RunSettings run = options.run;
     run.render.size = shot.size;
     run.render.moves = true;
     run.render.scene_moves = moves(source);
-    const RunPlan plan = planRun(device, source.scene, shot.camera, run);
+    const RunPlan plan = planRun(device, source.scene, path.front().camera, run, options.path->frames);
     notePlan(report, plan);
     Renderer renderer(device, source.scene, path.front().camera, plan.settings);
     progress->clear();
@@ -166,12 +198,16 @@ int renderSequence(const RenderOptions& asked) {
     const std::uint32_t first = options.resume ? files.firstMissing(options.path->frames) : 0;
     FilesWritten written;
     const double exposure = options.run.exposure.value_or(source.scene.default_exposure);
-    const LoopResult result =
-        SequenceRun(options, path, files, report, exposure).draw(device, renderer, first, written, *progress);
+    InterruptWatch interrupt;
+    const LoopResult result = SequenceRun(options, path, files, report, exposure)
+                                  .draw(device, renderer, first, written, *progress, interrupt);
     progress.reset();
+    interrupt.shield();
     report.statistics = renderer.statistics();
-    report.stopped_by = result.stopped_by;
-    if (!options.quiet) warnOfDoubts(report);
+    if (!options.quiet) {
+        warnOfDoubts(report);
+        if (result.film.samples > 0) warnOfBlackness(result.film, exposure);
+    }
     writeReport(written, options, report);
     const std::string line = sequenceLine(report, path.size());
     if (!options.quiet) printOut(line + "\n");

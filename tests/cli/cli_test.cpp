@@ -297,7 +297,7 @@ TEST(Render, SamplingSettingsAreNamed) {
                                            {"environment_sampling", "rejection"},
                                            {"sampler", "blue"},
                                            {"blue_samples", 8}}));
-    for (const char* none : {"adaptive", "declared_bias", "orders", "tail", "bounces_auto"})
+    for (const char* none : {"adaptive", "declared_bias", "orders", "tail", "bounces_auto", "sequence"})
         EXPECT_TRUE(report.at(none).is_null()) << none;
     const ExrPicture picture = readExr(folder.path() / "a.exr");
     EXPECT_EQ(attribute(picture, "licht.direct"), "area");
@@ -472,9 +472,10 @@ TEST(Devices, OneIsChosen) {
 
 TEST(Help, EverySubcommandHasIt) {
     const ScratchFolder folder;
-    for (const Words& arguments : {Words{"--help"}, Words{"render", "--help"}, Words{"info", "--help"},
-                                   Words{"devices", "--help"}, Words{"view", "--help"}, Words{"--version"},
-                                   Words{"help"}, Words{"help", "render"}, Words{"version"}}) {
+    for (const Words& arguments :
+         {Words{"--help"}, Words{"render", "--help"}, Words{"info", "--help"}, Words{"devices", "--help"},
+          Words{"view", "--help"}, Words{"accuracy", "--help"}, Words{"--version"}, Words{"help"},
+          Words{"help", "render"}, Words{"version"}}) {
         const Outcome outcome = runWell(folder, arguments);
         EXPECT_NE(outcome.out, "");
         EXPECT_EQ(outcome.err, "");

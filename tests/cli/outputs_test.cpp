@@ -32,6 +32,8 @@ void writeInputs(const ScratchFolder& folder) {
 "bufferViews":[{"buffer":0,"byteLength":36}],"buffers":[{"byteLength":36,
 "uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})");
     std::filesystem::create_hard_link(folder.file("sky.exr"), folder.file("linked.exr"));
+    std::filesystem::create_hard_link(folder.file("Crate.png"), folder.file("Crate-02.png"));
+    folder.write("path.json", R"({"keys": [{"time": 0, "eye": [0, 0, 1], "target": [0, 0, 0]}]})");
     std::filesystem::create_directory(folder.file("sub"));
     std::filesystem::create_symlink("../Crate.gltf", folder.file("sub/link.json"));
 }
@@ -48,7 +50,8 @@ TEST_P(OutputsTest, AreNoInputsAndNoOtherOutputs) {
     writeInputs(folder);
     const std::vector<std::string> before = folder.contents();
     std::vector<std::string> bytes;
-    for (const char* name : {"Crate.gltf", "Crate.png", "sky.exr"}) bytes.push_back(folder.read(name));
+    for (const char* name : {"Crate.gltf", "Crate.png", "sky.exr", "path.json"})
+        bytes.push_back(folder.read(name));
     std::vector<std::string> arguments = GetParam().arguments;
     if (arguments[0] == "render") arguments.insert(arguments.end(), {"--size", "8x8", "--spp", "1"});
     const Outcome outcome = runLicht(folder, arguments);
@@ -56,7 +59,7 @@ TEST_P(OutputsTest, AreNoInputsAndNoOtherOutputs) {
     EXPECT_EQ(outcome.errorLines().size(), 1U) << outcome.err;
     EXPECT_EQ(folder.contents(), before);
     std::size_t i = 0;
-    for (const char* name : {"Crate.gltf", "Crate.png", "sky.exr"})
+    for (const char* name : {"Crate.gltf", "Crate.png", "sky.exr", "path.json"})
         EXPECT_EQ(folder.read(name), bytes[i++]) << name;
 }
 
@@ -70,6 +73,13 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"sceneByALink", {"render", "Crate.gltf", "-o", "a.png", "--report", "sub/link.json"}},
         Refused{"reportIsThePicture", {"render", "cornell", "-o", "a.exr", "--report", "./a.exr"}},
         Refused{"twoPictures", {"render", "cornell", "-o", "a.exr", "-o", "sub/../a.exr"}},
+        Refused{"textureByAFrame", {"render", "Crate.gltf", "--path", "orbit", "-o", "Crate-%02d.png"}},
+        Refused{"pathByTheReport",
+                {"render", "Crate.gltf", "--path", "path.json", "-o", "f%d.png", "--report", "path.json"}},
+        Refused{"pathByAccuracy",
+                {"accuracy", "Crate.gltf", "--temporal", "--path", "path.json", "--json", "path.json"}},
+        Refused{"skyByAccuracy",
+                {"accuracy", "Crate.gltf", "--temporal", "--environment", "sky.exr", "--csv", "linked.exr"}},
         Refused{"compareReference", {"compare", "sky.exr", "sky.exr", "--json", "linked.exr"}},
         Refused{"benchScene", {"bench", "Crate.gltf", "--json", "Crate.gltf", "--quiet"}}),
     [](const testing::TestParamInfo<Refused>& param) { return std::string(param.param.name); });

@@ -139,7 +139,7 @@ TEST(Words, TheReadmeNamesEveryOptionOfRender) {
 
 TEST(Words, EveryOptionThatIsNamedIsThere) {
     std::set<std::string> known{"--help", "--install", "--prefix"};  // the last two are CMake's
-    for (const char* subcommand : {"render", "view", "info", "bench", "devices", "compare"})
+    for (const char* subcommand : {"render", "view", "info", "bench", "devices", "compare", "accuracy"})
         for (const std::string& option : matchesOf(helpOf(subcommand), "(--[a-z][a-z-]+)"))
             known.insert(option);
     for (const fs::path& readme : readmes())
