@@ -2,8 +2,11 @@
 #include "samples/licht/camera_path.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 
 #include "licht/core/error.h"
 #include "samples/licht/path_file.h"
@@ -112,6 +115,27 @@ TEST(CameraKeys, CutsAreInHalfOpenSpans) {
     EXPECT_TRUE(keys.cutsBetween(1.0, 5.0));
     EXPECT_FALSE(keys.cutsBetween(3.0, 1e9));
     EXPECT_FALSE(keys.cutsBetween(-5.0, 0.0));
+}
+
+TEST(PathFiles, SpeakOfTheFilesWorldAndOfTheChosenCamera) {
+    const std::filesystem::path file =
+        std::filesystem::temp_directory_path() / ("licht_path_" + std::to_string(::getpid()) + ".json");
+    std::ofstream(file) << R"({"keys": [{"time": 2, "eye": [103, 0, 4], "target": [100, 0, 4]},
+        {"time": 3, "eye": [100, 0, 0], "target": [100, -1, 0], "up": [3, 0, 0], "yfov": 90}]})";
+    Scene scene;
+    scene.origin = glm::dvec3(100.0, 0.0, 0.0);  // was moved to zero
+    Camera start = from(vec3(9.0F), vec3(0, 0, -1), 0.25F);
+    start.z_far = 77.0F;
+    const CameraKeys keys = readPathFile(file, scene, start);
+    std::filesystem::remove(file);
+    expectNear(eyeOf(keys.at(2.0)), vec3(3, 0, 4));
+    expectNear(forwardOf(keys.at(2.0)), vec3(-1, 0, 0));
+    expectNear(vec3(keys.at(2.0).world_from_view[1]), vec3(0, 1, 0));
+    EXPECT_EQ(keys.at(2.0).y_fov, 0.25F);
+    EXPECT_EQ(keys.at(2.0).z_far, 77.0F);
+    expectNear(forwardOf(keys.at(3.0)), vec3(0, -1, 0));
+    expectNear(vec3(keys.at(3.0).world_from_view[1]), vec3(1, 0, 0));
+    EXPECT_NEAR(keys.at(3.0).y_fov, 0.5F * kPi, kTolerance);
 }
 
 /// Of a box 2 m to either side that the camera sees from 10 m before its middle.
