@@ -51,8 +51,11 @@ TEST(Plot, EqualFactorsAreEqualDistances) {
 }
 
 TEST(Plot, AxesHoldWholeDecadesOfAllCurves) {
-    const std::vector<Points> lines =
-        linesOf(svgText({"t", "x", "y", {{"a", {{0, 0.2}, {9, 0.3}}}, {"b", {{0, 20}, {9, 30}}}}}));
+    const std::string svg =
+        svgText({"t", "x", "y", {{"a", {{0, 0.2}, {9, 0.3}}}, {"b", {{0, 20}, {9, 30}}}}});
+    for (const char* decade : {">0.1<", ">1<", ">10<", ">100<"}) EXPECT_TRUE(has(svg, decade)) << decade;
+    EXPECT_FALSE(has(svg, ">0.01<") || has(svg, ">1e+03<"));
+    const std::vector<Points> lines = linesOf(svg);
     ASSERT_EQ(lines.size(), 2U);
     // From 0.1 to 100, three decades: a hundred times higher is two thirds of the axis.
     const double two_thirds = lines[0][0].second - lines[1][0].second;
