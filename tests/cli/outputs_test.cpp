@@ -54,6 +54,8 @@ TEST_P(OutputsTest, AreNoInputsAndNoOtherOutputs) {
         bytes.push_back(folder.read(name));
     std::vector<std::string> arguments = GetParam().arguments;
     if (arguments[0] == "render") arguments.insert(arguments.end(), {"--size", "8x8", "--spp", "1"});
+    if (arguments[0] == "accuracy")
+        arguments.insert(arguments.end(), {"--size", "8x8", "--frames", "1", "--reference-spp", "2"});
     const Outcome outcome = runLicht(folder, arguments);
     EXPECT_EQ(outcome.exit_code, 2);
     EXPECT_EQ(outcome.errorLines().size(), 1U) << outcome.err;
