@@ -18,8 +18,10 @@
 #include "licht/core/error.h"
 #include "licht/core/file.h"
 #include "licht/core/memory.h"
+#include "licht/image/decoder_memory.h"
 #include "licht/image/exr.h"
 #include "licht/image/hdr_header.h"
+#include "licht/image/jpeg_tables.h"
 
 namespace licht {
 namespace {
@@ -30,8 +32,11 @@ struct DecoderFailure : std::runtime_error {
 }  // namespace licht
 
 // The package's library ends the program where the codes of a damaged JPEG contradict each other; compiled
-// here, that is an error like others.
+// here, that is an error like others, and what was taken until then is given back.
 #define STBI_ASSERT(holds) ((holds) ? static_cast<void>(0) : throw licht::DecoderFailure())
+#define STBI_MALLOC licht::takeDecoderMemory
+#define STBI_REALLOC licht::resizeDecoderMemory
+#define STBI_FREE licht::giveDecoderMemory
 #define STB_IMAGE_STATIC
 #define STB_IMAGE_IMPLEMENTATION
 #include <stb_image.h>
@@ -130,6 +135,7 @@ std::unique_ptr<Texel, Freed> decode(Load load, std::span<const std::byte> bytes
     try {
         texels.reset(load(&callbacks, &source, &size.width, &size.height, &stored_channels, channels));
     } catch (const DecoderFailure&) {
+        giveAllDecoderMemory();
         refuse(name, "broken image (its codes contradict each other)");
     }
     if (source.readPastEnd()) refuse(name, "the image is truncated");
@@ -137,13 +143,17 @@ std::unique_ptr<Texel, Freed> decode(Load load, std::span<const std::byte> bytes
     return texels;
 }
 
-bool isPngOrJpeg(std::span<const std::byte> bytes) {
-    constexpr std::array<unsigned char, 8> png = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
-    constexpr std::array<unsigned char, 3> jpeg = {0xff, 0xd8, 0xff};
-    const auto startsWith = [bytes](const auto& magic) {
-        return bytes.size() >= magic.size() && std::memcmp(bytes.data(), magic.data(), magic.size()) == 0;
-    };
-    return startsWith(png) || startsWith(jpeg);
+template <std::size_t size>
+bool startsWith(std::span<const std::byte> bytes, const std::array<unsigned char, size>& magic) {
+    return bytes.size() >= size && std::memcmp(bytes.data(), magic.data(), size) == 0;
+}
+
+bool isPng(std::span<const std::byte> bytes) {
+    return startsWith<8>(bytes, {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'});
+}
+
+bool isJpeg(std::span<const std::byte> bytes) {
+    return startsWith<3>(bytes, {0xff, 0xd8, 0xff});
 }
 
 /// Nothing where the file does not say its primaries, or says what is read anyway.
@@ -287,7 +297,7 @@ void writePng(const std::filesystem::path& path, const Image& picture) {
 bool isOwnPng(const std::filesystem::path& path) {
     try {
         const std::vector<std::byte> bytes = readFile(path);
-        return isPngOrJpeg(bytes) && bytes.size() >= kPngHeaderBytes + kSoftwareChunk.size() &&
+        return isPng(bytes) && bytes.size() >= kPngHeaderBytes + kSoftwareChunk.size() &&
                std::equal(kSoftwareChunk.begin(), kSoftwareChunk.end(), bytes.begin() + kPngHeaderBytes);
     } catch (const InputError&) {
         return false;
@@ -304,7 +314,10 @@ Image readRadianceMap(const std::filesystem::path& path, std::size_t* replaced) 
 }
 
 ImageShape shapeOfImage(std::span<const std::byte> bytes, const std::string& name) {
-    if (!isPngOrJpeg(bytes)) refuse(name, "is neither PNG nor JPEG");
+    if (isJpeg(bytes))
+        requireSoundJpegTables(bytes, name);
+    else if (!isPng(bytes))
+        refuse(name, "is neither PNG nor JPEG");
     const Size size = requireSaneSize(bytes, name);
     const bool wide = stbi_is_16_bit_from_memory(stbBytes(bytes), static_cast<int>(bytes.size())) != 0;
     return {size.width, size.height, wide ? 16 : 8};

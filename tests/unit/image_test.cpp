@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <malloc.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -348,18 +349,23 @@ TEST(Decode, TruncatedAndForeignBytesAreRefused) {
     expectInputError([&] { decodeImage({}, "none"); }, "none", "neither PNG nor JPEG");
 }
 
-/// An 8 x 2 JPEG of constant grey 128: every block's coefficients are zero.
-std::string greyJpeg() {
+/// An 8 x 2 JPEG. By default a constant grey 128: one code a table, "0", for a difference of zero (DC) and
+/// for the end of a block (AC), so that every block's coefficients are zero.
+std::string greyJpeg(const std::string& ac_counts = '\1' + std::string(15, '\0'),
+                     const std::string& ac_symbols = std::string(1, '\0'),
+                     const std::string& codes = "\x3f") {
     std::string text("\xff\xd8\xff\xdb\0\x43\0", 7);
     text += std::string(64, '\1');
     text += std::string("\xff\xc0\0\x0b\x08\0\x02\0\x08\1\1\x11\0", 13);
-    // One code a table: "0" for a difference of zero (DC) and for the end of a block (AC).
-    for (const char table : {'\x00', '\x10'}) {
-        text += std::string("\xff\xc4\0\x14", 4) + table + '\1' + std::string(15, '\0') + '\0';
-    }
+    const auto table = [&text](char id, const std::string& counts, const std::string& symbols) {
+        const std::size_t length = 3 + counts.size() + symbols.size();
+        text += std::string("\xff\xc4") + static_cast<char>(length >> 8U) + static_cast<char>(length & 0xffU);
+        text += id + counts + symbols;
+    };
+    table('\x00', '\1' + std::string(15, '\0'), std::string(1, '\0'));
+    table('\x10', ac_counts, ac_symbols);
     text += std::string("\xff\xda\0\x08\1\1\0\0\x3f\0", 10);
-    text += std::string("\x3f\xff\xd9", 3);
-    return text;
+    return text + codes + "\xff\xd9";
 }
 
 TEST(Decode, JpegIsReadAndItsTruncationRefused) {
@@ -374,6 +380,58 @@ TEST(Decode, JpegIsReadAndItsTruncationRefused) {
     for (std::size_t length = 0; length < whole.size(); ++length)
         expectInputError([&] { decodeImage(bytesOf(whole.substr(0, length)), "short.jpg"); }, "short.jpg",
                          "");
+}
+
+// Counts of codes by length: 254 of 8 bits and two of 9. stb_image takes number 255 for "no short code", and
+// finds that what it reads next is another code than the one it looked up.
+TEST(Decode, CodesThatContradictEachOtherAreRefusedAndLeaveNoMemory) {
+    const std::string counts = std::string(7, '\0') + '\xfe' + '\2' + std::string(7, '\0');
+    const std::string text = greyJpeg(counts, std::string(256, '\1'), "\x7f\x40");
+    const auto decode = [&] {
+        expectInputError([&] { decodeImage(bytesOf(text), "codes.jpg"); }, "codes.jpg",
+                         "contradict each other");
+    };
+    decode();
+    const std::size_t before = mallinfo2().uordblks;
+    for (int i = 0; i < 100; ++i) decode();
+    EXPECT_LT(mallinfo2().uordblks, before + 100);  // a decoder takes some 18,000 bytes
+}
+
+// More codes than a byte can name would be written beyond the decoder's tables, and those that the file's end
+// cuts off, or that lie behind their own segment, are what the decoder makes of it.
+TEST(Decode, TablesOfTooManyCodesAreRefused) {
+    const std::string counts = std::string(8, '\0') + std::string(8, '\xff');
+    const std::string text = greyJpeg(counts, std::string(8 * 255, '\0'));
+    expectInputError([&] { decodeImage(bytesOf(text), "many.jpg"); }, "many.jpg", "a table of 2040 codes");
+    const std::size_t at = text.rfind("\xff\xc4");
+    std::string beyond = text;
+    beyond[at + 2] = '\0';
+    beyond[at + 3] = '\3';
+    expectInputError([&] { decodeImage(bytesOf(beyond), "beyond.jpg"); }, "beyond.jpg",
+                     "a table of 2040 codes");
+    for (std::size_t more = 2; more < 21; ++more)
+        expectInputError([&] { decodeImage(bytesOf(text.substr(0, at + more)), "cut.jpg"); }, "cut.jpg",
+                         "truncated");
+    // Behind the codes of a picture, too, and not where a comment only looks like it.
+    const std::string whole = greyJpeg();
+    const std::string table = text.substr(at, 4 + 1 + 16 + 8 * 255);
+    const std::string behind = whole.substr(0, whole.size() - 2) + table + "\xff\xd9";
+    expectInputError([&] { decodeImage(bytesOf(behind), "behind.jpg"); }, "behind.jpg",
+                     "a table of 2040 codes");
+    const std::string comment = std::string("\xff\xfe\0\x17", 4) + table.substr(0, 21);
+    EXPECT_EQ(decodeImage(bytesOf(whole.substr(0, 2) + comment + whole.substr(2)), "said.jpg").bytes[0], 128);
+}
+
+// What a file leaves out is zero, not what lay in memory before: the same bytes, the same picture.
+TEST(Decode, TablesThatAreNotThereAreZero) {
+    std::string text = greyJpeg();
+    const std::size_t first = text.find("\xff\xc4");
+    text.erase(first, text.rfind("\xff\xda") - first);
+    for (const int filled : {0, 0x5a, 0xff}) {
+        mallopt(M_PERTURB, filled);
+        EXPECT_EQ(decodeImage(bytesOf(text), "none.jpg").bytes[0], 128) << filled;
+    }
+    mallopt(M_PERTURB, 0);
 }
 
 /// A Radiance picture of 2 x 2 uncompressed texels (mantissas and a common exponent, biased by 128 + 8 bits).
