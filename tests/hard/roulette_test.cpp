@@ -35,14 +35,18 @@ Scene sphereInside(const std::vector<Material>& materials) {
     return scene;
 }
 
-Film film(const Scene& scene, std::uint32_t roulette_start) {
+std::uint32_t manySamples() {
+    return static_cast<std::uint32_t>(test::often(16, 100));
+}
+
+Film film(const Scene& scene, std::uint32_t roulette_start, std::uint32_t samples = manySamples()) {
     RenderSettings settings;
     settings.size = uvec2(static_cast<std::uint32_t>(test::often(250, 1000)));
     settings.bounces = kBounces;
     settings.roulette_start = roulette_start;
     settings.sampler = Sequence::random;
     settings.seed = 11 + roulette_start;
-    return renderFilm(scene, scene.cameras[0], settings, static_cast<std::uint32_t>(test::often(16, 100)));
+    return renderFilm(scene, scene.cameras[0], settings, samples);
 }
 
 /// Of a picture's mean, relative: an order takes four roundings of 2^-24 at each bounce (the surface's
@@ -93,6 +97,31 @@ TEST(Roulette, KeepsWhatIsKnownInClosedForm) {
             expectAlike(std::string(c.name) + ", closed form", with, exact, channel);
             expectAlike(std::string(c.name) + ", never", with, without, channel);
         }
+    }
+}
+
+// However little a path carries, its chance is no larger than that: one in a thousand goes on here, and
+// carries as much as the thousand did. With a least chance of two in a thousand the mean would be 16 standard
+// errors too low.
+TEST(Roulette, KeepsTheMeanWhereHardlyAnyPathGoesOn) {
+    const double r = 0.001F;
+    const Film early = film(sphereInside({glowing(vec3(0.001F), vec3(0.5F))}), 0);
+    const PictureMean exact{0.5 * (1.0 - std::pow(r, kBounces + 1.0)) / (1.0 - r), 0.0};
+    expectAlike("nearly black, closed form", pictureMean(early, 0), exact, 0);
+}
+
+// Surfaces that take all of one colour and half of the others: a chance by one colour alone would end every
+// path that has none of it, and lose half of the others' light.
+TEST(Roulette, EndsNoPathForTheLackOfOneColour) {
+    for (int lacking = 0; lacking < 3; ++lacking) {
+        vec3 albedo(0.5F);
+        albedo[lacking] = 0.0F;
+        const Film early = film(sphereInside({glowing(albedo, vec3(0.5F))}), 0, 2);
+        const PictureMean exact{1.0 - std::pow(0.5, kBounces + 1.0), 0.0};
+        for (int channel = 0; channel < 3; ++channel)
+            if (channel != lacking)
+                expectAlike("lacking " + std::to_string(lacking), pictureMean(early, channel), exact,
+                            channel);
     }
 }
 
