@@ -2,13 +2,14 @@
 # Puts the faults of tests/mutants.txt into the code, one at a time, and says which test notices:
 #   sh tests/mutate.sh            all of them (an hour or two)
 #   sh tests/mutate.sh WORD...    those whose line has one of the words
-# They go into a copy under build/mutants, which keeps its build. Exit code 1: a fault does not apply or build, or less than 95 % were noticed.
+# They go into a copy under build/mutants, which keeps its build. Exit code 1: a fault does not apply, build or come to an end, or less than 95 % were noticed.
 set -eu
 cd "$(dirname "$0")/.."
 root=$PWD
 work=${MUTANTS:-$root/build/mutants}
 jobs=$(nproc)
 limit=600 # seconds for one test program
+late="not done after $limit s" # which a busy machine does as well: no fault that was noticed
 mkdir -p "$work/source"
 
 # The working tree as it is, only what changed, so that little is built anew.
@@ -53,7 +54,10 @@ killer() {
         filter=*
         case $test in *:*) filter=${test#*:} ;; esac
         program=$(find build/release/tests -name "${test%%:*}" -type f -perm -u+x)
-        if (cd "$(dirname "$program")" && timeout $limit "./$(basename "$program")" --gtest_filter="$filter") >"$work/test.log" 2>&1; then continue; fi
+        rc=0
+        (cd "$(dirname "$program")" && timeout $limit "./$(basename "$program")" --gtest_filter="$filter") >"$work/test.log" 2>&1 || rc=$?
+        [ $rc != 0 ] || continue
+        if [ $rc = 124 ]; then echo "${test%%:*}: $late"; return; fi
         name=$(sed -n 's/^\[  FAILED  \] \([^ ,]*\).*/\1/p' "$work/test.log" | head -n 1)
         echo "${test%%:*}: ${name:-ended without a word}"
         return
@@ -82,11 +86,11 @@ while IFS= read -r line; do
         broken=$((broken + 1)); says="BROKEN    does not build"
     else
         by=$(killer $tests)
-        if [ -n "$by" ]; then
-            died=$((died + 1)); says="died      $by"
-        else
-            survived=$((survived + 1)); says="SURVIVED  $tests"
-        fi
+        case $by in
+            '') survived=$((survived + 1)); says="SURVIVED  $tests" ;;
+            *"$late"*) broken=$((broken + 1)); says="BROKEN    $by" ;;
+            *) died=$((died + 1)); says="died      $by" ;;
+        esac
     fi
     cp "$work/whole" "$file"
     echo "$(($(date +%s) - start)) s  $file: $words: $says"
