@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "licht/image/exr.h"
 #include "licht/image/files.h"
@@ -100,10 +101,28 @@ TEST(Outputs, TheDefaultReplacesLichtsOwnPicturesAlone) {
     EXPECT_EQ(decodeImage(std::as_bytes(std::span(png)), "cornell.png").width, 8);
 }
 
+// A name may be any bytes; JSON is UTF-8.
+TEST(Outputs, NamesThatAreNoTextLeaveJsonValid) {
+    const ScratchFolder folder;
+    writeInputs(folder);
+    const std::string scene = "\xff\xc3.gltf";
+    std::filesystem::copy_file(folder.file("Crate.gltf"), folder.file(scene));
+    const std::vector<std::vector<std::string>> commands{
+        {"render", scene, "--size", "8x8", "--spp", "1", "-o", "\xfe.exr", "--report", "json", "--quiet"},
+        {"bench", scene, "--size", "8", "--runs", "1", "--json", "json", "--quiet"},
+        {"compare", "\xfe.exr", "\xfe.exr", "--json", "json"}};
+    for (const std::vector<std::string>& command : commands) {
+        std::filesystem::remove(folder.file("json"));
+        EXPECT_EQ(runLicht(folder, command).exit_code, 0) << command[0];
+        EXPECT_TRUE(nlohmann::json::accept(folder.read("json"))) << command[0];
+    }
+    EXPECT_TRUE(nlohmann::json::accept(runLicht(folder, {"info", scene, "--json"}).out));
+}
+
 /// Exit code of the command as a shell runs it in the folder.
-int shell(const ScratchFolder& folder, const std::string& arguments) {
-    const std::string command =
-        "cd '" + folder.path().string() + "' && LICHT_VALIDATION=1 '" + LICHT_PROGRAM + "' " + arguments;
+int shell(const ScratchFolder& folder, const std::string& arguments, const std::string& before = "true") {
+    const std::string command = "cd '" + folder.path().string() + "' && " + before +
+                                " && LICHT_VALIDATION=1 '" + LICHT_PROGRAM + "' " + arguments;
     const int status = std::system(command.c_str());
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
@@ -124,6 +143,14 @@ TEST(Streams, APictureIsNotLostToThem) {
     }
     const ScratchFolder folder;
     EXPECT_EQ(shell(folder, "render nothing 2>&-"), 2);
+}
+
+// 64 blocks of 512 bytes, beyond which the system sends a signal.
+TEST(Outputs, OneThatIsTooLargeForALimitLeavesNoPart) {
+    const ScratchFolder folder;
+    const char* render = "render cornell --size 128x128 --spp 1 -o a.exr --report r.json --quiet 2>/dev/null";
+    EXPECT_EQ(shell(folder, render, "ulimit -f 64"), 1);
+    EXPECT_EQ(folder.contents(), std::vector<std::string>{"r.json"});
 }
 
 TEST(Streams, TextThatIsTheWorkIsMissed) {

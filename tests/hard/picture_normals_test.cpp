@@ -146,6 +146,29 @@ TEST(BentNormals, NeverGiveMoreThanTheyGet) {
     }
 }
 
+// The same of light that is sampled: a sun just below the true face, before the bent normal, gives nothing,
+// and one above it the normal's cosine, but for a few roundings.
+TEST(BentNormals, TakeNoLightFromBelowTheFace) {
+    Scene scene;
+    scene.materials = {lambert(1.0F)};
+    Mesh plane = quadMesh("plane", 0, vec3(-1, 0, 1), vec3(1, 0, 1), vec3(1, 0, -1), vec3(-1, 0, -1));
+    const double normal = glm::radians(30.0);  // above the plane
+    for (vec3& n : plane.normals) n = vec3(std::cos(normal), std::sin(normal), 0.0);
+    place(scene, std::move(plane));
+    for (const double degrees : {1.0, -1.0, -50.0}) {
+        const double sun = glm::radians(degrees);
+        PunctualLight light;
+        light.kind = PunctualLight::Kind::directional;
+        light.direction = vec3(-std::cos(sun), -std::sin(sun), 0.0);
+        light.intensity = vec3(static_cast<float>(std::numbers::pi));  // a surface facing it shows 1
+        scene.lights = {light};
+        const Film film = renderFilm(scene, downCamera(vec3(0.0F), 0.5F, 2.0F), test::picture(8, 1), 1);
+        const double exact = degrees > 0.0 ? std::cos(sun - normal) : 0.0;
+        for (int x = 0; x < 8; ++x)
+            EXPECT_NEAR(film.mean.at(x, x, 0), exact, 32.0 * 0x1p-24 * exact) << degrees << " degrees";
+    }
+}
+
 // Smooth normals on a coarse sphere under a distant light: where a facet turns away but its normals do not,
 // the light is cut off; there is no terminator fix. The step that this makes is measured over lights a
 // fraction of a facet apart and held to what the geometry explains.
