@@ -97,4 +97,11 @@ void developLayers(Film& film, const LayerSet& wanted, std::uint32_t samples, co
     }
 }
 
+Image developDisplay(uvec2 size, std::span<const std::byte> texels) {
+    Image picture(static_cast<int>(size.x), static_cast<int>(size.y), 4);
+    for (std::size_t i = 0; i < picture.texels.size(); ++i)
+        picture.texels[i] = static_cast<float>(texels[i]) / 255.0F;
+    return picture;
+}
+
 }  // namespace licht

@@ -24,4 +24,7 @@ using LayerTexels = std::map<std::string_view, std::vector<std::byte>>;
 /// What aov.comp left of `samples` samples -> the layers asked for, by the rules of their table.
 void developLayers(Film& film, const LayerSet& wanted, std::uint32_t samples, const LayerTexels& images);
 
+/// RGBA of [0,1], from texels of 8 bits a channel.
+Image developDisplay(uvec2 size, std::span<const std::byte> texels);
+
 }  // namespace licht

@@ -20,18 +20,11 @@
 #include "licht/render/preparation.h"
 #include "licht/render/programs.h"
 #include "licht/render/scene_on_device.h"
+#include "licht/render/slices.h"
 #include "licht/render/view.h"
 #include "licht/shared/frame.h"
 
 namespace licht {
-namespace {
-
-// A submission that runs longer than this meets the watchdogs of desktop systems (about two seconds) on a
-// slow moment.
-constexpr double kSliceSeconds = 0.1;
-
-}  // namespace
-
 struct Renderer::State {
     State(gpu::Device& d, const Scene& first, const Camera& c, const RenderSettings& s)
         : device(withRoom(d, s)),
@@ -144,16 +137,9 @@ FrameRecord Renderer::State::frameRecord() const {
     return record;
 }
 
-// Work is sliced by measured time. The picture does not depend on it: a sample is a function of its address
-// alone.
 std::uint32_t Renderer::State::rowsPerSlice() const {
-    const double seconds = in_flight.pathSeconds();
     const double rows_done = static_cast<double>(statistics.primary_rays) / settings.size.x;
-    const std::uint32_t most_rows = frame->mostRows();
-    if (seconds <= 0.0 || rows_done <= 0.0) return std::min(most_rows, 128U);
-    const double rows =
-        std::clamp(kSliceSeconds * rows_done / seconds, 8.0, std::max(8.0, static_cast<double>(most_rows)));
-    return static_cast<std::uint32_t>(rows);
+    return licht::rowsPerSlice(in_flight.pathSeconds(), rows_done, frame->mostRows());
 }
 
 Renderer::Renderer(gpu::Device& device, const Scene& scene, const Camera& camera,
@@ -387,11 +373,7 @@ Image Renderer::readDisplay(Tonemap curve, float exposure_ev) {
     commands.submit();
     commands.wait();
     addTimes(s.statistics.passes, commands.times());
-    const std::vector<std::byte> bytes = s.read("display_image");
-    Image picture(static_cast<int>(s.settings.size.x), static_cast<int>(s.settings.size.y), 4);
-    for (std::size_t i = 0; i < picture.texels.size(); ++i)
-        picture.texels[i] = static_cast<float>(bytes[i]) / 255.0F;
-    return picture;
+    return developDisplay(s.settings.size, s.read("display_image"));
 }
 
 const gpu::Image& Renderer::displayImage() const {

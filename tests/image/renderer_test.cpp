@@ -154,9 +154,10 @@ TEST(Passes, AreThoseOfTheList) {
         const Kind kind{"", queues, queues, false};
         RenderSettings settings = settingsOf(kind, {16, 16});
         settings.denoise = Denoise::spatiotemporal;
-        settings.moves = true;
+        settings.moves = settings.scene_moves = true;
         Renderer renderer(gpu::testDevice(), scene, litFloorCamera(), settings);
         renderer.renderSample();
+        renderer.setScene(scene);
         renderer.setCamera(movedCamera(litFloorCamera()));  // so that there is a history
         renderer.renderSample();
         static_cast<void>(renderer.readDisplay(Tonemap::none, 0.0F));

@@ -14,7 +14,7 @@
 
 layout(local_size_x = 1) in;
 
-layout(push_constant) uniform Push { SamplePush sample_push; TonemapPush tonemap_push; WavefrontPush wavefront_push; FilterPush filter_push; ReprojectPush reproject_push; };
+layout(push_constant) uniform Push { SamplePush sample_push; TonemapPush tonemap_push; WavefrontPush wavefront_push; FilterPush filter_push; ReprojectPush reproject_push; GradientPush gradient_push; };
 layout(std430, binding = 0) readonly buffer FrameBlock { FrameRecord frame; };  // with its ViewRecord
 layout(std430, binding = 1) readonly buffer Vertices { VertexRecord vertices[]; };
 layout(std430, binding = 2) readonly buffer Instances { InstanceRecord instances[]; };
