@@ -14,7 +14,7 @@ report=out/gallery.json
 mkdir -p out
 # What was rendered by this very program need not be rendered again.
 if [ $# -gt 0 ] || [ ! -e $report ] || [ ! -e out/gallery.png ] || [ ! -e out/gallery.exr ] || [ "$licht" -nt $report ]; then
-    if [ $# = 0 ]; then set -- --size 640x360 --time 120; fi
+    if [ $# = 0 ]; then set -- --size 640x360 --time 120 --denoise spatiotemporal --unfiltered out/gallery-unfiltered.png; fi
     "$licht" render gallery -o out/gallery.png -o out/gallery.exr --aov all --report $report "$@"
 fi
 
@@ -29,6 +29,9 @@ echo "Pictures:  $PWD/out/gallery.png and $PWD/out/gallery.exr (linear, with lay
 echo "Cost:      $(number spp '%d') samples per pixel in $(number render '%.1f') s on $(text device);" \
     "first picture $(number first_image '%.1f') s after the start"
 echo "Error:     $(number relative_error '%.3f') (relative, estimated)"
+if [ "$(number unfiltered_relative_error '%.3f')" != unknown ]; then
+    echo "           $(number unfiltered_relative_error '%.3f') before the filter: $PWD/out/gallery-unfiltered.png"
+fi
 echo "Report:    $PWD/$report"
 
 if [ -n "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ]; then

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "licht/film/error_estimate.h"
 #include "licht/measure/metrics.h"
 
 namespace licht {
@@ -61,6 +62,7 @@ void developBeauty(Film& film, std::span<const std::byte> mean_high,
 void developFiltered(Film& film, std::span<const std::byte> filtered, std::span<const std::byte> error) {
     const std::vector<vec4> picture = texels(filtered);
     const std::vector<vec4> squares = texels(error);
+    film.unfiltered_error = relativeError(film);
     film.unfiltered = film.mean;
     double total = 0.0;
     for (std::size_t i = 0; i < pixels(film); ++i) {

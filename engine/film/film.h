@@ -18,7 +18,9 @@ struct Film {
     /// Where the picture is filtered, `mean` is what the filter made and `variance` its estimated squared
     /// error, bias included; this is the mean of the samples, RGBA, which is otherwise empty.
     Image unfiltered;
-    double filter_bias = -1.0;  ///< relative, root of the mean square, estimated; negative: not filtered
+    double filter_bias = -1.0;       ///< relative, root of the mean square, estimated; negative: not filtered
+    double unfiltered_error = -1.0;  ///< relative, estimated as of independent samples; negative: not
+                                     ///< filtered, or unknown
     Image counts;               ///< samples per pixel, where they differ; `samples` is then their mean
     std::vector<Image> orders;  ///< RGB of T^i Le each, when asked for; they sum to the mean
     Image lost;                 ///< RGB: what the clamp took, where it is on

@@ -342,14 +342,15 @@ Film Renderer::readFilm() {
     return film;
 }
 
-void Renderer::recordDisplay(gpu::Commands& commands, Tonemap curve, float exposure_ev) {
+void Renderer::recordDisplay(gpu::Commands& commands, Tonemap curve, float exposure_ev, bool filtered) {
     State& s = *state_;
     TonemapPush push{};
     push.exposure = std::exp2(exposure_ev);
     push.curve = static_cast<uint>(curve);
     if (!s.rounds) {
-        if (s.filters()) s.recordFilter(commands);
-        s.frame->recordDisplay(commands, push, s.filters());
+        filtered = filtered && s.filters();
+        if (filtered) s.recordFilter(commands);
+        s.frame->recordDisplay(commands, push, filtered);
         return;
     }
     // The history holds the last round alone.
@@ -364,12 +365,12 @@ void Renderer::recordDisplay(gpu::Commands& commands, Tonemap curve, float expos
                       {film.size.x, film.size.y});
 }
 
-Image Renderer::readDisplay(Tonemap curve, float exposure_ev) {
+Image Renderer::readDisplay(Tonemap curve, float exposure_ev, bool filtered) {
     State& s = *state_;
     finish();
     gpu::Commands commands(s.device);
     commands.begin();
-    recordDisplay(commands, curve, exposure_ev);
+    recordDisplay(commands, curve, exposure_ev, filtered);
     commands.submit();
     commands.wait();
     addTimes(s.statistics.passes, commands.times());

@@ -50,11 +50,12 @@ public:
     void resize(uvec2 size);
 
     [[nodiscard]] Film readFilm();
-    /// The tone-mapped picture, display-referred sRGB in [0,1], RGBA.
-    [[nodiscard]] Image readDisplay(Tonemap curve, float exposure_ev);
+    /// The tone-mapped picture, display-referred sRGB in [0,1], RGBA; or the mean of its samples, before the
+    /// filter.
+    [[nodiscard]] Image readDisplay(Tonemap curve, float exposure_ev, bool filtered = true);
     /// Records the tone map into an RGBA8/BGRA8 image of the same size; used by the window. `commands` must
     /// be recording.
-    void recordDisplay(gpu::Commands& commands, Tonemap curve, float exposure_ev);
+    void recordDisplay(gpu::Commands& commands, Tonemap curve, float exposure_ev, bool filtered = true);
     /// The image recordDisplay writes: R8G8B8A8_UNORM, already sRGB-encoded.
     [[nodiscard]] const gpu::Image& displayImage() const;
 

@@ -25,6 +25,8 @@ RunPlan planRun(gpu::Device& device, const Scene& scene, const Camera& camera, c
     if (run.render.adaptive && run.render.denoise != Denoise::none)
         throw InputError("--denoise filters samples that are as many in every pixel: leave out --adaptive");
     RunPlan plan{run.render, stopRules(run), {}, {}, {}};
+    // Of a still there are no earlier views.
+    if (!run.render.moves && run.render.denoise == Denoise::temporal) plan.settings.denoise = Denoise::none;
     plan.settings.blue_bits = blueBitsFor(run.samples);
     if (run.auto_bounces) {
         plan.depth = chooseDepth(device, scene, camera, plan.settings, run.error.value_or(kDefaultTailShare),

@@ -38,6 +38,8 @@ void checkTogether(const RenderOptions& options) {
             "--aov bounces: the layers are stored in .exr files and summed up in the report: add -o FILE.exr "
             "or --report FILE");
     const RunSettings& run = options.run;
+    if (options.unfiltered && (run.render.denoise != Denoise::spatiotemporal || options.path))
+        throw InputError("--unfiltered: is of a still that is drawn with --denoise spatiotemporal");
     if (options.path && (run.seconds || run.error || run.render.adaptive))
         throw InputError(
             "--path: its frames have --spp samples each; leave out --time, --error and --adaptive");

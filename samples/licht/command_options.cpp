@@ -171,6 +171,12 @@ void addRender(CLI::App& app, RenderOptions& options) {
              [&options](std::string_view option, std::string_view text) {
                  options.run.render.layers = parseLayers(option, text);
              });
+    addValue(app, "--unfiltered", "FILE", "With --denoise: write the picture before it, too, .png",
+             [&options](std::string_view option, std::string_view text) {
+                 options.unfiltered = parseOutput(option, text);
+                 if (options.unfiltered->extension() != ".png")
+                     refuseValue(option, text, "a file that ends in .png");
+             });
     addValue(app, "--report", "FILE", "Write what was done and what it cost as JSON",
              [&options](std::string_view, std::string_view text) { options.report = text; });
     app.add_flag("--quiet", options.quiet, "Say nothing but errors");

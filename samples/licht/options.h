@@ -55,7 +55,8 @@ struct RenderOptions {
     RunSettings run;                             ///< render.size is filled in from the field beside it
     std::vector<std::filesystem::path> outputs;  ///< .png and .exr; empty: "<scene name>.png"
     std::optional<PathRequest> path;  ///< a picture for each of its frames; outputs are then patterns
-    bool resume = false;              ///< the path's frames that are there stay
+    std::optional<std::filesystem::path> unfiltered;  ///< .png: the picture as it was before the filter
+    bool resume = false;                              ///< the path's frames that are there stay
     std::optional<SizeRequest> size;
     std::string device;
     std::optional<std::filesystem::path> report;

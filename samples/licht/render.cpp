@@ -18,6 +18,7 @@ int render(const RenderOptions& options) {
     if (options.path) return renderSequence(options);
     for (const auto& output : options.outputs) checkWritable(output);
     if (options.report) checkWritable(*options.report);
+    if (options.unfiltered) checkWritable(*options.unfiltered);
 
     const Clock::time_point load_start = Clock::now();
     const NamedScene source = loadScene(options.source);
@@ -54,6 +55,7 @@ int render(const RenderOptions& options) {
         if (good && !options.quiet)
             printOut(fmt::format("wrote {} ({}x{})\n", oneLine(output.string()), shot.size.x, shot.size.y));
     }
+    writeUnfiltered(files, options, renderer, exposure);
     report.statistics = renderer.statistics();
     if (!options.quiet) {
         warnOfDoubts(report);

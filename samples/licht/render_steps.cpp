@@ -44,6 +44,7 @@ void describeRun(RenderReport& report, const gpu::Device& device, const Renderer
     report.render_seconds = result.render_seconds;
     report.error = result.error;
     report.filter_bias = result.film.filter_bias;
+    report.unfiltered_error = result.film.unfiltered_error;
     report.effects = renderer.effects().names();
     report.device_peak_bytes = device.devicePeakBytes();
     report.mean = pictureMean(result.film);
@@ -116,6 +117,7 @@ std::vector<std::filesystem::path> filesRead(const SceneRequest& request, const 
 void requireFilesOfItsOwn(const RenderOptions& options, const Scene& scene,
                           std::vector<std::filesystem::path> outputs) {
     if (options.report) outputs.emplace_back(*options.report);
+    if (options.unfiltered) outputs.emplace_back(*options.unfiltered);
     requireOwnFiles(outputs, filesRead(options.source, scene, options.path));
 }
 
@@ -169,6 +171,16 @@ bool writePicture(FilesWritten& files, const std::filesystem::path& output, Rend
             writePng(output,
                      withoutAlpha(renderer.readDisplay(report.asked.tonemap, static_cast<float>(exposure))));
     });
+}
+
+void writeUnfiltered(FilesWritten& files, const RenderOptions& options, Renderer& renderer, double exposure) {
+    if (!options.unfiltered) return;
+    const bool good = files.add(*options.unfiltered, [&] {
+        writePng(*options.unfiltered, withoutAlpha(renderer.readDisplay(
+                                          options.run.tonemap, static_cast<float>(exposure), false)));
+    });
+    if (good && !options.quiet)
+        printOut(fmt::format("wrote {}, before the filter\n", oneLine(options.unfiltered->string())));
 }
 
 void writeReport(FilesWritten& files, const RenderOptions& options, RenderReport& report) {

@@ -63,6 +63,9 @@ private:
 bool writePicture(FilesWritten& files, const std::filesystem::path& output, Renderer& renderer,
                   const Film& film, const RenderReport& report, double exposure);
 
+/// The picture before the filter, where it is asked for.
+void writeUnfiltered(FilesWritten& files, const RenderOptions& options, Renderer& renderer, double exposure);
+
 /// The report with what is known at the end, where one is asked for.
 void writeReport(FilesWritten& files, const RenderOptions& options, RenderReport& report);
 

@@ -136,6 +136,8 @@ std::string reportJson(const RenderReport& report) {
     json["rays_per_second"] =
         report.render_seconds > 0.0 ? static_cast<double>(report.rays()) / report.render_seconds : 0.0;
     json["relative_error"] = report.error >= 0.0 ? ordered_json(report.error) : ordered_json(nullptr);
+    json["unfiltered_relative_error"] =
+        report.unfiltered_error >= 0.0 ? ordered_json(report.unfiltered_error) : ordered_json(nullptr);
     json["sequence"] = sequenceJson(report);
     json["orders"] = ordersJson(report);
     json["tail"] = tailJson(report);

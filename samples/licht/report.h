@@ -48,9 +48,10 @@ struct RenderReport {
     double load_seconds = 0.0;
     double first_image_seconds = 0.0;  ///< from process start
     double render_seconds = 0.0;
-    double total_seconds = 0.0;  ///< from process start until the pictures were written
-    double error = -1.0;         ///< negative: unknown
-    double filter_bias = -1.0;   ///< relative, estimated; negative: not filtered
+    double total_seconds = 0.0;      ///< from process start until the pictures were written
+    double error = -1.0;             ///< negative: unknown
+    double filter_bias = -1.0;       ///< relative, estimated; negative: not filtered
+    double unfiltered_error = -1.0;  ///< of the picture before the filter; negative: not filtered, or unknown
     RenderStatistics statistics;
     glm::dvec3 mean{0.0};                       ///< of the picture, cd/m^2
     std::vector<LightBatch> light;              ///< where orders are kept or the clamp is on

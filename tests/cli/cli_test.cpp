@@ -328,6 +328,24 @@ TEST(Render, ShortcutsAreDeclared) {
     EXPECT_NE(attribute(readExr(folder.path() / "a.exr"), "licht.declaredBias"), "none");
 }
 
+TEST(Render, ThePictureBeforeTheFilterIsThereToo) {
+    const ScratchFolder folder;
+    runWell(folder, {"render", "cornell", "--size", "32x32", "--spp", "4", "--denoise", "spatiotemporal",
+                     "--unfiltered", "raw.png", "-o", "a.png", "-o", "a.exr", "--aov", "unfiltered",
+                     "--report", "report.json"});
+    const json report = json::parse(folder.read("report.json"));
+    EXPECT_LT(report.at("relative_error").get<double>(),
+              report.at("unfiltered_relative_error").get<double>());
+    EXPECT_NE(folder.read("raw.png"), folder.read("a.png"));
+    // By the same samples: what the layer has is what the picture shows.
+    const ExrPicture layers = readExr(folder.path() / "a.exr");
+    const EncodedImage raw = decodeImage(readFile(folder.path() / "raw.png"), "raw.png");
+    const std::vector<float>& red = layers.find("unfiltered.R")->values;
+    const auto brightest = static_cast<std::size_t>(std::max_element(red.begin(), red.end()) - red.begin());
+    const auto darkest = static_cast<std::size_t>(std::min_element(red.begin(), red.end()) - red.begin());
+    EXPECT_GT(raw.bytes[4 * brightest], raw.bytes[4 * darkest]);
+}
+
 TEST(Render, AdaptiveSamplesDifferFromPixelToPixel) {
     const ScratchFolder folder;
     runWell(folder, {"render", "cornell", "--size", "32x32", "--spp", "24", "--adaptive", "-o", "a.exr", "-o",

@@ -178,19 +178,23 @@ TEST_F(Compare, FilteredPicturesHaveNoZTest) {
 }
 
 TEST_F(Compare, KnowsWhatTheFilterDrew) {
-    for (const char* how : {"none", "spatiotemporal"}) {
+    for (const char* how : {"none", "spatiotemporal", "temporal"}) {
         const Outcome drawn =
             runLicht(folder, {"render", "furnace", "--size", "16x16", "--spp", "4", "--aov", "variance",
                               "--denoise", how, "-o", std::string(how) + ".exr", "--quiet"});
         ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
     }
-    const Outcome outcome = run({"none.exr", "none.exr", "spatiotemporal.exr", "--json", "out.json"});
+    const Outcome outcome =
+        run({"none.exr", "none.exr", "spatiotemporal.exr", "temporal.exr", "--json", "out.json"});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     const json pictures = json::parse(folder.read("out.json")).at("pictures");
     EXPECT_EQ(pictures[0].at("filtered"), false);
     EXPECT_FALSE(pictures[0].at("z_test").is_null());
     EXPECT_EQ(pictures[1].at("filtered"), true);
     EXPECT_TRUE(pictures[1].at("z_test").is_null());
+    // A still has no earlier views.
+    EXPECT_EQ(pictures[2].at("filtered"), false);
+    EXPECT_EQ(pictures[2].at("rel_mse"), 0.0);
 }
 
 TEST_F(Compare, RefusesWhatItCannotCompare) {
