@@ -35,7 +35,11 @@ float changeAround(vec2 place) {
 
 // Old light that is wrong by a share r of itself counts as so many of n samples: by n r^2 over a sample's own squared error, which the filter takes to about a
 // hundredth of the light's square.
-float countAfterChange(float n, float share) { return n / (1.0 + 100.0 * n * share * share); }
+// Less than a quarter of a sample is none: it might be of any size.
+float countAfterChange(float n, float share) {
+    float left = n / (1.0 + 100.0 * n * share * share);
+    return left < 0.25 ? 0.0 : left;
+}
 
 // Of a cubic through four texels in a row (Catmull, Rom 1974): between them nothing is blurred, however often it is resampled.
 vec4 cubicWeights(float f) {

@@ -19,9 +19,12 @@ void storeCounts(PathCounts counts) {
     atomicAdd(counters.environment_tries, counts.environment_tries);
 }
 
+// What a filter keeps for longer than a frame must have a square.
+const float kLargestFiltered = 1e18;
+
 // A sample that is no number counts as black and is reported, never hidden. Whether it is one.
 bool storeSample(uvec2 pixel, vec3 radiance, bool covered) {
-    bool finite = allFinite(radiance);
+    bool finite = allFinite(radiance) && (!kSignals || largest(radiance) < kLargestFiltered);
     if (!finite) {
         radiance = vec3(0.0);
         atomicAdd(counters.nonfinite_samples, 1u);

@@ -1,6 +1,7 @@
 // Scenes that change from frame to frame: history follows what moves, and goes where the light changed.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 
 #include "licht/measure/metrics.h"
@@ -143,6 +144,27 @@ TEST(MovingScene, LightThatChangesIsForgottenSoon) {
         const Film fresh = renderFilm(dim, dim.cameras[0], settings, kFrames);
         EXPECT_LT(relMse(colorOf(renderer.readFilm()), truth), 1.1 * relMse(colorOf(fresh), truth))
             << nameOf(denoise);
+    }
+}
+
+// One frame of light that no float can square is counted, and gone with the next.
+TEST(MovingScene, APoisonedFrameIsGoneWithTheNext) {
+    const Scene scene = *makeBuiltinScene("cornell");
+    Scene poisoned = scene;
+    for (Material& material : poisoned.materials) material.emission *= 1e36F;
+    for (const Denoise denoise : {Denoise::temporal, Denoise::spatiotemporal}) {
+        Renderer renderer(gpu::testDevice(), scene, scene.cameras[0], moving(uvec2(24, 24), denoise));
+        draw(renderer, 4);
+        renderer.setScene(poisoned);
+        draw(renderer, 1);
+        renderer.finish();
+        EXPECT_GT(renderer.statistics().nonfinite_samples, 0U);
+        renderer.setScene(scene);
+        draw(renderer, 1);
+        for (const float value : renderer.readFilm().mean.texels) {
+            ASSERT_TRUE(std::isfinite(value)) << nameOf(denoise);
+            ASSERT_LT(value, 1e4F) << nameOf(denoise);  // the lamp has 17; a path may find it some times over
+        }
     }
 }
 

@@ -1,6 +1,7 @@
 // A moving camera: what earlier views have told is brought to the present one, nowhere else, and gives way.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <string>
@@ -171,18 +172,25 @@ float brightestBeyond(float depth, const Image& picture, const Image& depths) {
     return brightest;
 }
 
+class LightStays : public testing::TestWithParam<bool> {};
+
 // Behind what moved aside lies another surface, and light is never brought to it from elsewhere: a dark wall
-// behind a bright board stays dark.
-TEST(Moving, LightStaysOnItsSurface) {
+// behind a bright board stays dark, whether or not they are one mesh.
+TEST_P(LightStays, OnItsSurface) {
     Scene scene;
     Material bright;
     bright.base_color = vec4(0.9F, 0.9F, 0.9F, 1.0F);
     bright.roughness = 1.0F;
     const std::uint32_t white = addMaterial(scene, bright);
-    place(scene,
-          quadMesh("wall", white, vec3(-9, -9, -10), vec3(9, -9, -10), vec3(9, 9, -10), vec3(-9, 9, -10)));
-    place(scene,
-          quadMesh("board", white, vec3(-1, -9, -4), vec3(0, -9, -4), vec3(0, 9, -4), vec3(-1, 9, -4)));
+    Mesh wall =
+        quadMesh("wall", white, vec3(-9, -9, -10), vec3(9, -9, -10), vec3(9, 9, -10), vec3(-9, 9, -10));
+    const Mesh board =
+        quadMesh("board", white, vec3(-1, -9, -4), vec3(0, -9, -4), vec3(0, 9, -4), vec3(-1, 9, -4));
+    if (GetParam())
+        appendMesh(wall, board);
+    else
+        place(scene, board);
+    place(scene, wall);
     // It lights the board alone, from its front; the wall has none.
     PunctualLight light;
     light.kind = PunctualLight::Kind::spot;
@@ -213,6 +221,27 @@ TEST(Moving, LightStaysOnItsSurface) {
         const Image depths = truth.readFilm().layer(LayerId::depth);
         EXPECT_EQ(brightestBeyond(9.9F, picture, depths), 0.0F) << frame;
     }
+}
+
+INSTANTIATE_TEST_SUITE_P(Moving, LightStays, testing::Bool(), [](const auto& one_mesh) {
+    return std::string(one_mesh.param ? "OfOneMesh" : "OfTwoMeshes");
+});
+
+// Paths that go through queues tell the same. The sums are in another order, so a rounding may differ.
+TEST(Moving, KernelAndQueuesTellAlike) {
+    const Scene scene = *makeBuiltinScene("gallery");
+    std::array<Image, 2> pictures;
+    for (const bool queues : {false, true}) {
+        RenderSettings settings = moving(uvec2(48, 27), Denoise::temporal);
+        settings.queues = queues;
+        Renderer renderer(gpu::testDevice(), scene, scene.cameras[0], settings);
+        for (int frame = 0; frame < 4; ++frame) {
+            renderer.setCamera(walked(scene.cameras[0], 0.02F * static_cast<float>(frame)));
+            renderer.renderSample();
+        }
+        pictures[queues ? 1 : 0] = colorOf(renderer.readFilm());
+    }
+    EXPECT_LT(relMse(pictures[1], pictures[0]), 1e-6);
 }
 
 // Of raw frames at most a third and an eighth; flicker of the filtered ones a fifth.
