@@ -227,6 +227,56 @@ INSTANTIATE_TEST_SUITE_P(Moving, LightStays, testing::Bool(), [](const auto& one
     return std::string(one_mesh.param ? "OfOneMesh" : "OfTwoMeshes");
 });
 
+/// A mirror before the camera that shows a board behind it, which a spot lights: no noise.
+Scene mirroredSpot() {
+    Scene scene;
+    Material silver;
+    silver.base_color = vec4(0.9F, 0.9F, 0.9F, 1.0F);
+    silver.roughness = 0.0F;
+    place(scene, quadMesh("mirror", addMaterial(scene, silver), vec3(-4, -4, -5), vec3(4, -4, -5),
+                          vec3(4, 4, -5), vec3(-4, 4, -5)));
+    Material white;
+    white.base_color = vec4(0.8F, 0.8F, 0.8F, 1.0F);
+    white.metallic = 0.0F;
+    white.specular = 0.0F;
+    place(scene, quadMesh("board", addMaterial(scene, white), vec3(9, -9, 3), vec3(-9, -9, 3), vec3(-9, 9, 3),
+                          vec3(9, 9, 3)));
+    PunctualLight light;
+    light.kind = PunctualLight::Kind::spot;
+    light.intensity = vec3(100.0F);
+    light.position = vec3(0.0F, 0.0F, -2.0F);
+    light.direction = vec3(0.0F, 0.0F, 1.0F);
+    light.inner_cone = 0.1F;
+    light.outer_cone = 0.3F;
+    scene.lights.push_back(light);
+    Camera camera;
+    camera.y_fov = 0.5F;
+    scene.cameras.push_back(camera);
+    return scene;
+}
+
+// What a mirror shows moves as its image does, not as the mirror: it would lag by half a pixel a frame.
+TEST(Moving, MirrorsDoNotSmear) {
+    const Scene scene = mirroredSpot();
+    RenderSettings settings = moving(uvec2(64, 48), Denoise::temporal);
+    settings.bounces = 2;
+    Renderer renderer(gpu::testDevice(), scene, scene.cameras[0], settings);
+    constexpr int kFrames = 16;
+    const auto cameraAt = [&](int frame) {
+        return walked(scene.cameras[0], 0.05F * static_cast<float>(frame));
+    };
+    for (int frame = 0; frame < kFrames; ++frame) {
+        renderer.setCamera(cameraAt(frame));
+        renderer.renderSample();
+    }
+    const Image moved_picture = colorOf(renderer.readFilm());
+    settings.moves = false;
+    settings.denoise = Denoise::none;
+    const Image truth = colorOf(renderFilm(scene, cameraAt(kFrames - 1), settings, 64));
+    EXPECT_LT(relMse(moved_picture, truth), 2e-3);
+    EXPECT_NEAR(channelMeans(moved_picture)[0] / channelMeans(truth)[0], 1.0, 0.01);
+}
+
 // Paths that go through queues tell the same. The sums are in another order, so a rounding may differ.
 TEST(Moving, KernelAndQueuesTellAlike) {
     const Scene scene = *makeBuiltinScene("gallery");

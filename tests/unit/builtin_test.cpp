@@ -88,7 +88,7 @@ TEST(BuiltinTable, NamesEveryScene) {
     }
     std::sort(names.begin(), names.end());
     EXPECT_EQ(names, (std::vector<std::string_view>{"cornell", "empty", "furnace", "gallery", "lamps",
-                                                    "meadow", "spheres", "terrain"}));
+                                                    "meadow", "moving", "spheres", "terrain"}));
     EXPECT_FALSE(makeBuiltinScene("Cornell"));
     EXPECT_FALSE(makeBuiltinScene(""));
 }
