@@ -10,6 +10,7 @@
 #include "licht/core/file.h"
 #include "licht/scene/gltf_container.h"
 #include "licht/scene/gltf_extensions.h"
+#include "licht/scene/gltf_indices.h"
 #include "licht/scene/gltf_meshopt.h"
 #include "licht/scene/gltf_sizes.h"
 
@@ -244,6 +245,7 @@ Asset readAsset(const std::filesystem::path& path) {
     checkExtensions(document, asset);
     readBuffers(document, container, asset);
     requireSizes(document, asset);
+    requireIndices(document, asset);
     decodeMeshopt(document, asset);
     readImages(document, asset);
     parseModel(document, asset);

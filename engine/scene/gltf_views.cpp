@@ -110,6 +110,7 @@ std::optional<PunctualLight> readLight(Asset& asset, int node, const dmat4& worl
         return std::nullopt;
     }
     const std::string node_name = objectName("node", static_cast<std::size_t>(node), carrier.name);
+    if (!extension->second.Get("light").IsInt()) asset.fail(node_name, "its light is no index");
     const int index = extension->second.Get("light").GetNumberAsInt();
     const tinygltf::Light& source = at(asset, asset.model.lights, index, node_name, "light");
     const std::string name = objectName("light", static_cast<std::size_t>(index), source.name);

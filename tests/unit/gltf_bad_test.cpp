@@ -161,6 +161,38 @@ TEST_F(BadGltf, IndicesThatNameNoVertex) {
     expect(file, "accessor");
 }
 
+// 2^32 is 0 where 32 bits are kept, and a fraction or a huge number none: another mesh or none would be drawn
+// without a word.
+TEST_F(BadGltf, IndicesThatAreNone) {
+    const std::vector<std::string> places{"/nodes/0/mesh",
+                                          "/nodes/0/children/0",
+                                          "/nodes/0/extensions/KHR_lights_punctual/light",
+                                          "/scenes/0/nodes/0",
+                                          "/scene",
+                                          "/meshes/0/primitives/0/material",
+                                          "/meshes/0/primitives/0/indices",
+                                          "/meshes/0/primitives/0/attributes/POSITION",
+                                          "/meshes/0/primitives/0/targets/0/POSITION",
+                                          "/accessors/0/bufferView",
+                                          "/materials/0/normalTexture/index",
+                                          "/textures/0/source"};
+    for (const std::string& place : places) {
+        for (const Json& number : {Json(4294967296), Json(-4294967296), Json(0.5), Json(1e308)}) {
+            GltfFile file = GltfFile::triangle();
+            file.json[Json::json_pointer(place)] = number;
+            expectError(file.writeGlb(folder_), number.dump() + " is no index");
+        }
+    }
+    GltfFile file = GltfFile::triangle();
+    file.json["nodes"][0]["extensions"]["KHR_lights_punctual"]["light"] = "sun";
+    expect(file, "its light is no index");
+    // What is not ours may say anything.
+    file = GltfFile::triangle();
+    file.json["nodes"][0]["extras"]["mesh"] = 0.5;
+    file.json["nodes"][0]["extensions"]["ANY_thing"]["light"] = 1e308;
+    loadGltf(file.writeGlb(folder_));
+}
+
 TEST_F(BadGltf, SparsePartsThatLie) {
     const auto spoilt = [](const char* part, const char* key, const Json& value, std::uint16_t index = 2) {
         GltfFile file = GltfFile::triangle();
