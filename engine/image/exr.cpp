@@ -19,6 +19,7 @@
 #include "licht/core/error.h"
 #include "licht/core/file.h"
 #include "licht/core/memory.h"
+#include "licht/image/exr_header.h"
 
 namespace licht {
 namespace {
@@ -147,6 +148,7 @@ void writeExr(const std::filesystem::path& path, const ExrPicture& picture) {
 ExrPicture readExr(const std::filesystem::path& path) {
     try {
         requireFlatSinglePart(path);
+        requireExrHeaderWithinFile(path);
         limitLibraryOnce();
         Imf::InputFile file(path.c_str());
         ExrPicture picture = describe(file.header(), path);

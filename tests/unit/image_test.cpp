@@ -189,6 +189,23 @@ TEST_F(ExrTest, HugeWindowsAreRefusedFast) {
     expectInputError([&] { readExr(path); }, "huge.exr", "");
 }
 
+// The library would take the memory first.
+TEST_F(ExrTest, AttributesBeyondTheFileAreRefused) {
+    writeExr(folder_ / "a.exr", layeredPicture());
+    const std::string good = get(folder_ / "a.exr");
+    for (const std::string& start :
+         {std::string("licht.scene\0string\0", 19), std::string("channels\0chlist\0", 16)}) {
+        for (const std::uint32_t size :
+             {static_cast<std::uint32_t>(good.size()), 0x64030000U, 0x80000000U, 0xffffffffU}) {
+            std::string bytes = good;
+            const std::size_t at = bytes.find(start) + start.size();
+            for (unsigned i = 0; i < 4; ++i) bytes[at + i] = static_cast<char>(size >> 8U * i & 0xffU);
+            put(folder_ / "long.exr", bytes);
+            expectInputError([&] { readExr(folder_ / "long.exr"); }, "long.exr", "ends beyond the file");
+        }
+    }
+}
+
 TEST_F(ExrTest, WindowAwayFromTheOriginIsRead) {
     const ExrPicture picture = layeredPicture();
     writeExr(folder_ / "a.exr", picture);
