@@ -132,7 +132,7 @@ const BadInput kBadInputs[] = {
     {"UnknownDevice", {"render", "empty", "--device", "abacus"}, "abacus"},
     {"PathOfNoName",
      {"render", "cornell", "--path", "spiral"},
-     "--path spiral: is none of orbit, strafe, cut, still-move-still, and no .json file"},
+     "--path spiral: is none of orbit, strafe, cut, rest, still-move-still, and no .json file"},
     {"PathFileMissing", {"render", "cornell", "--path", "missing.json"}, "missing.json: no such file"},
     {"PathFileIsFolder", {"render", "cornell", "--path", "folder.json"}, "folder.json"},
     {"NoFrames", {"render", "cornell", "--path", "orbit", "--frames", "0"}, "--frames '0'"},
