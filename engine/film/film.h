@@ -21,9 +21,9 @@ struct Film {
     double filter_bias = -1.0;       ///< relative, root of the mean square, estimated; negative: not filtered
     double unfiltered_error = -1.0;  ///< relative, estimated as of independent samples; negative: not
                                      ///< filtered, or unknown
-    Image counts;               ///< samples per pixel, where they differ; `samples` is then their mean
-    std::vector<Image> orders;  ///< RGB of T^i Le each, when asked for; they sum to the mean
-    Image lost;                 ///< RGB: what the clamp took, where it is on
+    Image counts;                    ///< samples per pixel, where they differ; `samples` is then their mean
+    std::vector<Image> orders;       ///< RGB of T^i Le each, when asked for; they sum to the mean
+    Image lost;                      ///< RGB: what the clamp took, where it is on
 
     /// What passes drew, where it was asked for, else empty.
     [[nodiscard]] const Image& layer(LayerId id) const { return layers[static_cast<std::size_t>(id)]; }

@@ -20,8 +20,8 @@ public:
     explicit CameraKeys(std::vector<CameraKey> keys);
 
     /// Eye, turn and angle between the two keys beside, evenly: positions linear, turns about one axis
-    /// (Shoemake 1985, Animating Rotation with Quaternion Curves). Before the first key and behind the last it
-    /// rests, and it waits for a cut.
+    /// (Shoemake 1985, Animating Rotation with Quaternion Curves). Before the first key and behind the last
+    /// it rests, and it waits for a cut.
     [[nodiscard]] Camera at(double seconds) const;
     /// Whether there is a cut after `before`, and not after `seconds`.
     [[nodiscard]] bool cutsBetween(double before, double seconds) const;

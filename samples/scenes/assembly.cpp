@@ -19,6 +19,15 @@ std::uint32_t addMesh(Scene& scene, Mesh mesh) {
     return static_cast<std::uint32_t>(scene.meshes.size() - 1);
 }
 
+Material matte(std::string name, const vec3& reflectance) {
+    Material material;
+    material.name = std::move(name);
+    material.base_color = vec4(reflectance, 1.0F);
+    material.metallic = 0.0F;
+    material.specular = 0.0F;
+    return material;
+}
+
 void place(Scene& scene, std::uint32_t mesh, const mat4& world_from_object) {
     scene.instances.push_back({scene.meshes[mesh].name, mesh, world_from_object});
 }

@@ -13,6 +13,9 @@ std::uint32_t addTexture(Scene& scene, Texture texture);
 std::uint32_t addMaterial(Scene& scene, Material material);
 std::uint32_t addMesh(Scene& scene, Mesh mesh);
 
+/// Lambertian: what scatters evenly and mirrors nothing.
+Material matte(std::string name, const vec3& reflectance);
+
 /// Places a mesh that is there already, under the mesh's name.
 void place(Scene& scene, std::uint32_t mesh, const mat4& world_from_object = mat4(1.0F));
 /// Adds a mesh and places it once.

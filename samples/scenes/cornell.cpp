@@ -70,15 +70,6 @@ Mesh blockMesh(std::string name, std::uint32_t material, const Corners& top) {
     return block;
 }
 
-Material matte(std::string name, const vec3& reflectance) {
-    Material material;
-    material.name = std::move(name);
-    material.base_color = vec4(reflectance, 1.0F);
-    material.metallic = 0.0F;
-    material.specular = 0.0F;
-    return material;
-}
-
 }  // namespace
 
 Scene makeCornell() {

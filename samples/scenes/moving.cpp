@@ -14,15 +14,6 @@ constexpr double kCirclePeriod = 6.0;  ///< seconds a turn
 constexpr double kWavePeriod = 2.0;
 constexpr double kSwitchPeriod = 2.0;  ///< a half of it on, a half off
 
-Material matte(std::string name, const vec3& reflectance) {
-    Material material;
-    material.name = std::move(name);
-    material.base_color = vec4(reflectance, 1.0F);
-    material.metallic = 0.0F;
-    material.specular = 0.0F;
-    return material;
-}
-
 Material lamp(std::string name, float radiance) {
     Material material = matte(std::move(name), vec3(0.0F));
     material.emission = radiance * vec3(1.0F, 0.85F, 0.6F);

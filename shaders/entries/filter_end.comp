@@ -7,7 +7,8 @@
 layout(constant_id = kConstantSpatial) const bool kSpatial = true;
 layout(rgba32f, binding = kBindingMeanHigh) uniform readonly image2D mean_high;
 layout(rgba32f, binding = kBindingFilterFrom) uniform readonly image2D filter_from;
-layout(rgba32f, binding = kBindingSmoothFrom) uniform readonly image2D smooth_from;  // squared biases, far and near; without the spatial filter variances of a sample
+// Squared biases, far and near; without the spatial filter variances of a sample.
+layout(rgba32f, binding = kBindingSmoothFrom) uniform readonly image2D smooth_from;
 layout(rgba32f, binding = kBindingFiltered) uniform writeonly image2D filtered;
 layout(rgba32f, binding = kBindingFilteredError) uniform writeonly image2D filtered_error;
 
