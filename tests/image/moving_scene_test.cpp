@@ -35,7 +35,7 @@ void draw(Renderer& renderer, int samples) {
 // A scene that is replaced by its equal has not changed: no path finds other light, so nothing is forgotten.
 TEST(MovingScene, ItsEqualChangesNothing) {
     const Scene scene = at(0.0);
-    const RenderSettings settings = moving(uvec2(40, 30), Denoise::temporal);
+    const RenderSettings settings = moving(uvec2(160, 120), Denoise::temporal);
     Camera there = scene.cameras[0];
     there.world_from_view[3] += vec4(0.02F, 0.0F, 0.0F, 0.0F);
     Renderer renderer(gpu::testDevice(), scene, scene.cameras[0], settings);
