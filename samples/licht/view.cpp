@@ -42,7 +42,8 @@ int view(const ViewOptions& options) {
     gpu::Device device(device_options);
     RenderSettings settings = options.run.render;
     settings.size = shot.size;
-    settings.moves = true;
+    // Without a filter each view begins at the first sample, as the estimate of its error wants.
+    settings.moves = settings.denoise != Denoise::none;
     Renderer renderer(device, source.scene, shot.camera, settings);
     Swapchain swapchain(device, window);
 

@@ -20,9 +20,12 @@ void main() {
             uint tile = kFilterSpread + kHalves * kind;
             vec3 f_a = tileTexel(filter_from, tile, pixel).rgb, f_b = tileTexel(filter_from, tile + 1u, pixel).rgb;
             Halves x = halvesOf(kind, d, pixel);
-            told = told && isSplit(x);
+            if (!isSplit(x)) {
+                told = false;
+                break;
+            }
             vec3 product = (x.a - f_b) * (x.b - f_a);
-            bias[kind] = dot(product, vec3(1.0 / 3.0)) + centre[kind] * centre[2u + kind] * (1.0 / max(x.n_a, 1.0) + 1.0 / max(x.n_b, 1.0));
+            bias[kind] = dot(product, vec3(1.0 / 3.0)) + centre[kind] * centre[2u + kind] * (1.0 / x.n_a + 1.0 / x.n_b);
         }
     }
     imageStore(smooth_to, pixel, told ? vec4(bias, bias) : vec4(kUntold));

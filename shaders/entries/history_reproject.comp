@@ -34,8 +34,7 @@ float changeAround(vec2 place) {
 }
 
 // Old light that is wrong by a share r of itself counts as so many of n samples: by n r^2 over a sample's own squared error, which the filter takes to about a
-// hundredth of the light's square.
-// Less than a quarter of a sample is none: it might be of any size.
+// hundredth of the light's square. Less than a quarter of a sample is none: it might be of any size.
 float countAfterChange(float n, float share) {
     float left = n / (1.0 + 100.0 * n * share * share);
     return left < 0.25 ? 0.0 : left;

@@ -37,7 +37,8 @@ vec4 sumOfHalf(uint kind, uint half_, vec3 demodulation, ivec2 pixel) {
 
 Halves halvesOf(uint kind, vec3 demodulation, ivec2 pixel) {
     vec4 a = sumOfHalf(kind, 0u, demodulation, pixel), b = sumOfHalf(kind, 1u, demodulation, pixel);
-    return Halves(a.rgb / max(a.a, 1.0), b.rgb / max(b.a, 1.0), a.a, b.a);
+    // Earlier views may count less than a sample.
+    return Halves(a.a > 0.0 ? a.rgb / a.a : vec3(0.0), b.a > 0.0 ? b.rgb / b.a : vec3(0.0), a.a, b.a);
 }
 
 float countOf(Halves h) { return h.n_a + h.n_b; }
