@@ -25,7 +25,15 @@ double meanOf(const std::vector<double>& values) {
     return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-/// Each pixel's mean over channels of its relative squared errors.
+}  // namespace
+
+double mse(const Image& test, const Image& reference) {
+    requireAlike(test, reference);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < test.texels.size(); ++i) sum += squaredDifference(test, reference, i);
+    return sum / static_cast<double>(test.texels.size());
+}
+
 std::vector<double> relativeSquares(const Image& test, const Image& reference) {
     requireAlike(test, reference);
     const double mean = meanOf(channelMeans(reference));
@@ -36,15 +44,6 @@ std::vector<double> relativeSquares(const Image& test, const Image& reference) {
                                                static_cast<double>(reference.texels[i]), mean) /
                                 static_cast<double>(channels);
     return pixels;
-}
-
-}  // namespace
-
-double mse(const Image& test, const Image& reference) {
-    requireAlike(test, reference);
-    double sum = 0.0;
-    for (std::size_t i = 0; i < test.texels.size(); ++i) sum += squaredDifference(test, reference, i);
-    return sum / static_cast<double>(test.texels.size());
 }
 
 double relMse(const Image& test, const Image& reference) {

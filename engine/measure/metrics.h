@@ -19,9 +19,12 @@ inline double relativeSquare(double squared_error, double reference, double pict
 /// Mean squared error over pixels and channels.
 double mse(const Image& test, const Image& reference);
 
-/// Relative mean squared error: the mean over pixels and channels of relativeSquare of their squared
-/// difference, with the mean of the reference. An all-black reference gives 0 for an equal picture and
-/// infinity for any other.
+/// Of each pixel the mean over channels of relativeSquare of their squared differences, with the mean of the
+/// reference.
+std::vector<double> relativeSquares(const Image& test, const Image& reference);
+
+/// Relative mean squared error: the mean over pixels of relativeSquares. An all-black reference gives
+/// 0 for an equal picture and infinity for any other.
 double relMse(const Image& test, const Image& reference);
 
 /// The share of the pixels, those with the greatest error, that trimmedRelMse leaves out, rounded down to

@@ -13,8 +13,10 @@ struct SeenDepths {
     const Image& depth;  ///< one channel: along the axis, metres; infinite: nothing
 };
 
-/// For each pixel of `now` 1 where its surface was outside the picture `before`, or behind what that showed
-/// in its place.
-std::vector<std::uint8_t> findDisoccluded(const SeenDepths& before, const SeenDepths& now);
+inline constexpr std::uint32_t kNotSeen = ~0U;
+
+/// For each pixel of `now` the pixel, by its number row after row, in which its surface lies in the picture
+/// `before`; kNotSeen where that is outside, or behind what was shown there. Where nothing is shown, itself.
+std::vector<std::uint32_t> findBefore(const SeenDepths& before, const SeenDepths& now);
 
 }  // namespace licht

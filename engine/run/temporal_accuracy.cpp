@@ -21,8 +21,14 @@ struct Truth {
     Image mean;
     Image depth;  ///< along the axis, metres
     ViewRecord view{};
-    double rel_mse = 0.0;
+    std::vector<double> squares;  ///< relative ones of each pixel's own error, on average
+    double rel_mse = 0.0;         ///< their mean
+    double light = 0.0;           ///< mean over pixels and channels
 };
+
+double sumOf(std::span<const double> values) {
+    return std::accumulate(values.begin(), values.end(), 0.0);
+}
 
 class Truths {
 public:
@@ -56,10 +62,12 @@ public:
             films[i] = renderers_[i]->readFilm();
         }
         const Image one = withoutAlpha(films[0].mean);
-        truth_ = {withoutAlpha(films[1].mean), films[0].layer(LayerId::depth), view, 0.0};
+        truth_ = {withoutAlpha(films[1].mean), films[0].layer(LayerId::depth), view, {}};
         for (std::size_t i = 0; i < one.texels.size(); ++i)
             truth_.mean.texels[i] = 0.5F * (truth_.mean.texels[i] + one.texels[i]);
-        truth_.rel_mse = relMse(one, truth_.mean);  // a quarter of the difference's square
+        truth_.squares = relativeSquares(one, truth_.mean);  // a quarter of the difference's square
+        truth_.rel_mse = sumOf(truth_.squares) / static_cast<double>(truth_.squares.size());
+        truth_.light = sumOf(channelMeans(truth_.mean)) / 3.0;
         return &truth_;
     }
 
@@ -93,7 +101,9 @@ public:
         result_.frames.push_back({secondsSince(start), 0.0, 0.0});
     }
     void compare(const Truth& truth) {
-        result_.frames.back().rel_mse = relMse(picture_, truth.mean) - truth.rel_mse;
+        squares_ = relativeSquares(picture_, truth.mean);
+        result_.frames.back().rel_mse =
+            sumOf(squares_) / static_cast<double>(squares_.size()) - truth.rel_mse;
         result_.frames.back().flip = flipAsDisplayed(picture_, truth.mean);
     }
     void addFlicker(const Image& before, const Image& now) {
@@ -103,14 +113,23 @@ public:
         const double whole = std::accumulate(now.texels.begin(), now.texels.end(), 0.0);
         if (whole > 0.0) flicker_.add(sum / whole);
     }
-    void addGhost(const Image& raw, const Image& truth, std::span<const std::uint8_t> disoccluded) {
-        const std::vector<double> means = channelMeans(truth);
-        const double mean = std::accumulate(means.begin(), means.end(), 0.0) / 3.0;
-        for (std::size_t pixel = 0; pixel < disoccluded.size(); ++pixel)
-            if (disoccluded[pixel] != 0)
-                ghost_.add(squareAt(picture_, truth, pixel, mean) - squareAt(raw, truth, pixel, mean));
+    /// `raw`: squares of mode none.
+    void addGhost(std::span<const double> raw, std::span<const std::uint32_t> ages) {
+        for (std::size_t pixel = 0; pixel < ages.size(); ++pixel)
+            if (ages[pixel] == 0) ghost_.add(squares_[pixel] - raw[pixel]);
     }
-    [[nodiscard]] const Image& picture() const { return picture_; }
+    void addRecovery(const FreshStarts& starts, std::span<const double> fresh, const Truth& truth,
+                     std::span<const std::uint32_t> ages) {
+        RecoveryStep step;
+        for (std::size_t pixel = 0; pixel < ages.size(); ++pixel) {
+            if (!starts.touched(ages[pixel])) continue;
+            step.error += squares_[pixel] - truth.squares[pixel];
+            step.fresh_error += fresh[pixel] - truth.squares[pixel];
+            ++step.pixels;
+        }
+        result_.recoveries[static_cast<std::size_t>(starts.kind())].add(starts.framesSince(), step);
+    }
+    [[nodiscard]] std::span<const double> squares() const { return squares_; }
     [[nodiscard]] TemporalMode result() const {
         TemporalMode mode = result_;
         mode.flicker = flicker_.mean();
@@ -123,22 +142,19 @@ private:
     static double changeOf(const Image& before, const Image& now, std::size_t i) {
         return static_cast<double>(now.texels[i]) - static_cast<double>(before.texels[i]);
     }
-    static double squareAt(const Image& picture, const Image& truth, std::size_t pixel, double mean) {
-        double sum = 0.0;
-        for (std::size_t c = 0; c < 3; ++c) {
-            const auto b = static_cast<double>(truth.texels[3 * pixel + c]);
-            const double difference = static_cast<double>(picture.texels[3 * pixel + c]) - b;
-            sum += relativeSquare(difference * difference, b, mean) / 3.0;
-        }
-        return sum;
-    }
 
     std::uint32_t samples_;
     std::unique_ptr<Renderer> renderer_;
     TemporalMode result_;
     Image picture_, previous_;
+    std::vector<double> squares_;  ///< relative ones of the picture's pixels
     RunningStatistics flicker_, ghost_;
 };
+
+/// Beside which a camera's motion from frame to frame is little.
+bool lightChanged(const Truth& before, const Truth& now) {
+    return std::abs(now.light - before.light) > kChangeOfLight * before.light;
+}
 
 double meanOf(const std::vector<TemporalFrame>& frames, double TemporalFrame::*member) {
     double sum = 0.0;
@@ -166,27 +182,38 @@ TemporalAccuracy measureTemporal(gpu::Device& device, const Scene& scene, std::s
     RenderSettings settings = asked;
     settings.scene_moves = path.front().scene != nullptr;
     requireMemory(kFlipAsDisplayedBytesPerPixel * settings.size.x * settings.size.y, "FLIP takes");
-    Truths truths(device, scene, path.front().camera, settings, request.reference_samples);
-    std::vector<Runner> runners;
-    for (const Denoise mode : kTemporalModes)
-        runners.emplace_back(device, scene, path.front().camera, settings, mode, request.samples);
+    const Camera& camera = path.front().camera;
+    Truths truths(device, scene, camera, settings, request.reference_samples);
+    std::vector<Runner> runners, fresh;
+    for (const Denoise mode : kTemporalModes) {
+        runners.emplace_back(device, scene, camera, settings, mode, request.samples);
+        if (mode != Denoise::none) fresh.emplace_back(device, scene, camera, settings, mode, request.samples);
+    }
     TemporalAccuracy result;
     std::optional<Truth> before;
+    SurfaceAges ages;
+    FreshStarts starts;
     for (std::size_t frame = 0; frame < path.size(); ++frame) {
         const Truth* truth = truths.of(path[frame], hooks.interrupted);
         if (truth == nullptr || (hooks.interrupted && hooks.interrupted())) break;
         result.reference_rel_mse += truth->rel_mse;
+        const bool follows = before && path[frame].change == ViewChange::motion;
+        ages.advance(follows ? std::optional<SeenDepths>({before->view, before->depth}) : std::nullopt,
+                     {truth->view, truth->depth});
+        if (before) starts.advance(!follows, lightChanged(*before, *truth));
         for (Runner& runner : runners) {
             runner.draw(path[frame]);
             runner.compare(*truth);
+            if (!follows) continue;
+            runner.addFlicker(before->mean, truth->mean);
+            runner.addGhost(runners.front().squares(), ages.ages());
         }
-        if (before && path[frame].change == ViewChange::motion) {
-            const std::vector<std::uint8_t> disoccluded =
-                findDisoccluded({before->view, before->depth}, {truth->view, truth->depth});
-            for (Runner& runner : runners) {
-                runner.addFlicker(before->mean, truth->mean);
-                runner.addGhost(runners.front().picture(), truth->mean, disoccluded);
-            }
+        for (std::size_t i = 0; before && i < fresh.size(); ++i) {
+            PathFrame shown = path[frame];
+            if (starts.begins()) shown.change = ViewChange::cut;
+            fresh[i].draw(shown);
+            fresh[i].compare(*truth);
+            runners[i + 1].addRecovery(starts, fresh[i].squares(), *truth, ages.ages());
         }
         before = *truth;
         result.frames = frame + 1;

@@ -9,6 +9,7 @@
 
 #include "licht/gpu/device.h"
 #include "licht/run/path_frame.h"
+#include "licht/run/recovery.h"
 #include "licht/scene/scene.h"
 #include "licht/settings/settings.h"
 
@@ -37,6 +38,8 @@ struct TemporalMode {
     /// Relative squared error beyond that of mode none where a frame shows what the one before did not: what
     /// is brought there from elsewhere. Zero on average where nothing is.
     MeanOfPixels ghost;
+    /// Empty for mode none, which has no history that could be too old.
+    Recoveries recoveries;
 
     // Means over the frames; zero where there are none.
     [[nodiscard]] double relMse() const;

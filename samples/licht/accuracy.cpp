@@ -25,6 +25,25 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+/// "recover_frames", of each kind of change, and "recovery", what that was read from.
+void addRecoveries(Json& json, const Recoveries& recoveries) {
+    Json frames = Json::object();
+    Json curves = Json::object();
+    for (std::size_t kind = 0; kind < recoveries.size(); ++kind) {
+        const std::optional<std::uint32_t> recovered = recoveries[kind].frames();
+        frames[kChangeNames[kind]] = recovered ? Json(*recovered) : Json(nullptr);
+        Json& curve = curves[kChangeNames[kind]] = Json::array();
+        for (const RecoveryStep& step : recoveries[kind].steps) {
+            const double pixels = std::max(1.0, static_cast<double>(step.pixels));
+            curve.push_back({{"relmse", step.error / pixels},
+                             {"fresh_relmse", step.fresh_error / pixels},
+                             {"pixels", step.pixels}});
+        }
+    }
+    json["recover_frames"] = frames;
+    json["recovery"] = curves;
+}
+
 Json accuracyJson(const AccuracyOptions& options, const Shot& shot, const TemporalAccuracy& accuracy) {
     Json json{{"scene", options.source.scene},
               {"camera", shot.camera_name},
@@ -57,6 +76,7 @@ Json accuracyJson(const AccuracyOptions& options, const Shot& shot, const Tempor
                 mode.ghost.standard_error >= 0.0 ? Json(mode.ghost.standard_error) : Json(nullptr)},
                {"pixels", mode.ghost.pixels}}},
              {"frames", frames}});
+        addRecoveries(json["modes"].back(), mode.recoveries);
     }
     return json;
 }
@@ -85,10 +105,20 @@ std::string accuracySvg(const AccuracyOptions& options, const TemporalAccuracy& 
     return svgText(plot);
 }
 
+/// By kind of change, "-" where it was not over in the frames watched, or touched no pixel.
+std::string recoveryText(const Recoveries& recoveries) {
+    std::string text;
+    for (const Recovery& recovery : recoveries) {
+        const std::optional<std::uint32_t> frames = recovery.frames();
+        text += fmt::format("{}{}", text.empty() ? "" : " ", frames ? std::to_string(*frames) : "-");
+    }
+    return text;
+}
+
 std::string accuracyText(const TemporalAccuracy& accuracy) {
     if (accuracy.frames == 0) return "no frame was measured\n";
-    std::string text = fmt::format("{:<16}{:>10}{:>10}{:>10}{:>9}{:>10}{:>20}\n", "mode", "ms/frame",
-                                   "relMSE", "of raw", "FLIP", "flicker", "ghost");
+    std::string text = fmt::format("{:<16}{:>10}{:>10}{:>10}{:>9}{:>10}{:>20}{:>12}\n", "mode", "ms/frame",
+                                   "relMSE", "of raw", "FLIP", "flicker", "ghost", "recovers");
     const TemporalMode& raw = accuracy.modes.front();
     for (const TemporalMode& mode : accuracy.modes) {
         const std::string ghost =
@@ -99,8 +129,9 @@ std::string accuracyText(const TemporalAccuracy& accuracy) {
         const std::string share = raw.relMse() > 0.0 && mode.relMse() > 0.0
                                       ? fmt::format("1/{:.3g}", raw.relMse() / mode.relMse())
                                       : "-";
-        text += fmt::format("{:<16}{:>10.1f}{:>10.3g}{:>10}{:>9.5f}{:>10.3g}{:>20}\n", nameOf(mode.mode),
-                            1000.0 * mode.seconds(), mode.relMse(), share, mode.flip(), mode.flicker, ghost);
+        text += fmt::format("{:<16}{:>10.1f}{:>10.3g}{:>10}{:>9.5f}{:>10.3g}{:>20}{:>12}\n",
+                            nameOf(mode.mode), 1000.0 * mode.seconds(), mode.relMse(), share, mode.flip(),
+                            mode.flicker, ghost, recoveryText(mode.recoveries));
     }
     return text + fmt::format("relMSE of the references, taken off: {:.2g}\n", accuracy.reference_rel_mse);
 }

@@ -311,7 +311,10 @@ void addAccuracy(CLI::App& app, AccuracyOptions& options) {
         "row's. FLIP: how much of the difference is seen, as compare says it.\n"
         "flicker: mean change from frame to frame beyond that of the converged pictures, over their mean.\n"
         "ghost: relative squared error beyond that of raw frames, where a frame shows what the one before "
-        "did not.");
+        "did not.\n"
+        "recovers: frames until the error is within a tenth of a history's that began with the change: after "
+        "a cut,\n"
+        "after the light changed, where something came into sight; -: not in 16, or there was none.");
 }
 
 void addMemoryLimit(CLI::App& app) {

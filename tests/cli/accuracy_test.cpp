@@ -178,6 +178,50 @@ TEST(Accuracy, IsThatOfRenderAndCompare) {
     EXPECT_GT(frame.at("flip").get<double>(), 0.01);
 }
 
+// A cut is a fresh start, bit for bit; whatever else changed is told by curves of its own.
+TEST(Accuracy, SaysHowSoonItRecovers) {
+    const ScratchFolder folder;
+    const Outcome outcome =
+        runWell(folder, {"accuracy", "cornell", "--temporal", "--size", "16x16", "--path", "cut", "--frames",
+                         "6", "--reference-spp", "16", "--json", "a.json"});
+    const json modes = json::parse(folder.read("a.json")).at("modes");
+    for (std::size_t m = 1; m < modes.size(); ++m) {
+        EXPECT_EQ(modes[m].at("recover_frames").at("cut"), 0);
+        EXPECT_TRUE(modes[m].at("recover_frames").at("light").is_null());
+        EXPECT_TRUE(modes[m].at("recovery").at("light").empty());
+        const json& steps = modes[m].at("recovery").at("cut");
+        ASSERT_EQ(steps.size(), 3U) << "frames from the cut on";
+        for (std::size_t i = 0; i < steps.size(); ++i) {
+            EXPECT_EQ(steps[i].at("pixels"), 256);
+            EXPECT_EQ(steps[i].at("relmse"), steps[i].at("fresh_relmse"));
+            EXPECT_NEAR(steps[i].at("relmse").get<double>(),
+                        modes[m].at("frames")[3 + i].at("relmse").get<double>(), 1e-12);
+        }
+    }
+    for (const json& frames : modes[0].at("recover_frames")) EXPECT_TRUE(frames.is_null()) << "no history";
+    EXPECT_TRUE(has(outcome.out, " recovers\n")) << outcome.out;
+    EXPECT_TRUE(has(outcome.out, " 0 - -\n")) << outcome.out;
+}
+
+// The lamp is switched off after a second.
+TEST(Accuracy, LightThatIsSwitchedIsAChange) {
+    const ScratchFolder folder;
+    runWell(folder, {"accuracy", "moving", "--temporal", "--size", "32x18", "--path", "rest", "--frames",
+                     "6", "--fps", "3", "--reference-spp", "32", "--bounces", "3", "--json", "a.json"});
+    for (const json& mode : json::parse(folder.read("a.json")).at("modes")) {
+        const json& light = mode.at("recovery").at("light");
+        if (mode.at("mode") == "none") continue;
+        ASSERT_GE(light.size(), 3U);
+        EXPECT_EQ(light[0].at("pixels"), 32 * 18);
+        for (const json& step : light) EXPECT_GT(step.at("fresh_relmse").get<double>(), 0.0);
+        std::uint64_t uncovered = 0;
+        for (const json& step : mode.at("recovery").at("disocclusion"))
+            uncovered += step.at("pixels").get<std::uint64_t>();
+        EXPECT_GT(uncovered, 0U) << "the box moves";
+        EXPECT_LT(uncovered, 6U * 32U * 18U);
+    }
+}
+
 TEST(Accuracy, AnInterruptionKeepsWhatIsMeasured) {
     const ScratchFolder folder;
     RunningProgram program(folder,
@@ -227,11 +271,12 @@ TEST(Accuracy, AnInterruptionBeforeTheFirstFrameSaysSo) {
 TEST(Accuracy, HelpSaysWhatItMeasures) {
     const ScratchFolder folder;
     const std::string help = runWell(folder, {"accuracy", "--help"}).out;
-    for (const char* word : {"relMSE", "FLIP",  "flicker",   "ghost",    "of raw",           "--temporal",
-                             "--path", "orbit", "strafe",    "cut",      "still-move-still", "--frames",
-                             "--fps",  "--spp", "--bounces", "--seed",   "--reference-spp",  "--json",
-                             "--csv",  "--svg", "--size",    "--device", "--camera",         "--environment",
-                             "--quiet"})
+    for (const char* word :
+         {"relMSE",        "FLIP",   "flicker", "ghost",     "recovers", "of raw",
+          "--temporal",    "--path", "orbit",   "strafe",    "cut",      "still-move-still",
+          "--frames",      "--fps",  "--spp",   "--bounces", "--seed",   "--reference-spp",
+          "--json",        "--csv",  "--svg",   "--size",    "--device", "--camera",
+          "--environment", "--quiet"})
         EXPECT_TRUE(has(help, word)) << word << "\n" << help;
 }
 
