@@ -55,7 +55,7 @@ killer() {
         case $test in *:*) filter=${test#*:} ;; esac
         program=$(find build/release/tests -name "${test%%:*}" -type f -perm -u+x)
         rc=0
-        (cd "$(dirname "$program")" && timeout $limit "./$(basename "$program")" --gtest_filter="$filter") >"$work/test.log" 2>&1 || rc=$?
+        (cd "$(dirname "$program")" && timeout $limit "./$(basename "$program")" --gtest_filter="$filter" --gtest_fail_fast) >"$work/test.log" 2>&1 || rc=$?
         [ $rc != 0 ] || continue
         if [ $rc = 124 ]; then echo "${test%%:*}: $late"; return; fi
         name=$(sed -n 's/^\[  FAILED  \] \([^ ,]*\).*/\1/p' "$work/test.log" | head -n 1)

@@ -3,9 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <random>
+#include <span>
+#include <tuple>
 
 #include "licht/film/adaptive_film.h"
 #include "licht/film/error_estimate.h"
@@ -184,24 +187,85 @@ TEST(Adaptive, FirstRoundIsTheUniformPicture) {
     EXPECT_TRUE(identical(uniform.variance, rounds.variance));
 }
 
-// Pixels whose tile gets just the average go on with their own next samples: no gaps, no repetitions.
+/// The counts of each pixel and the whole picture at the end of every round.
+std::vector<Film> eachRound(const Scene& scene, RenderSettings settings,
+                            std::span<const std::uint32_t> budgets) {
+    settings.adaptive = true;
+    Renderer renderer(gpu::testDevice(), scene, scene.cameras[0], settings);
+    std::vector<Film> films;
+    for (const std::uint32_t budget : budgets) {
+        renderer.beginRound(budget);
+        while (!renderer.roundDone()) renderer.renderSample();
+        renderer.endRound();
+        films.push_back(renderer.readFilm());
+    }
+    return films;
+}
+
+/// Sums over the first samples of each pixel: of k samples at k.
+std::vector<std::vector<double>> firstSums(const Scene& scene, const RenderSettings& settings,
+                                           std::uint32_t samples) {
+    Renderer renderer(gpu::testDevice(), scene, scene.cameras[0], settings);
+    std::vector<std::vector<double>> sums(1);
+    for (std::uint32_t k = 1; k <= samples; ++k) {
+        renderer.renderSample();
+        const Image mean = renderer.readFilm().mean;
+        std::vector<double>& sum = sums.emplace_back();
+        for (const float value : mean.texels)
+            sum.push_back(static_cast<double>(k) * static_cast<double>(value));
+    }
+    return sums;
+}
+
+/// A floor that fills the picture below a black sky with two bright spots. What a sample of it is follows
+/// from the sample's numbers alone, wherever in its pixel the camera's ray goes through.
+Scene spottedFloor() {
+    Scene scene;
+    const std::uint32_t white = addMaterial(scene, matte("white", vec3(0.8F)));
+    place(scene,
+          quadMesh("floor", white, vec3(-50, 0, 50), vec3(50, 0, 50), vec3(50, 0, -50), vec3(-50, 0, -50)));
+    scene.environment = Environment{"sky", Image(16, 8, 3)};
+    for (const auto& [x, y, radiance] : {std::tuple(3, 2, 1.0F), std::tuple(9, 0, 40.0F)})
+        for (int c = 0; c < 3; ++c) scene.environment->radiance.at(x, y, c) = radiance;
+    scene.cameras.push_back(lookingCamera("aslant", vec3(0.0F, 5.0F, 5.0F), vec3(0.0F), 0.5F));
+    return scene;
+}
+
+// Each round goes on with the samples that a pixel has not drawn yet, however many its tile had: no gaps, no
+// repetitions. So every round's mean follows from sums over the first samples of a uniform picture.
 TEST(Adaptive, SamplesOfAPixelAreNumberedWithoutGaps) {
-    const Scene scene = *makeBuiltinScene("cornell");
-    const Film uniform = renderFilm(scene, scene.cameras[0], small(2), 16);
-    const Film rounds = renderRounds(scene, small(2), 16);
-    std::size_t compared = 0, uneven = 0;
-    for (std::size_t pixel = 0; pixel < rounds.counts.texels.size(); ++pixel) {
-        if (rounds.counts.texels[pixel] != 16.0F) {
-            ++uneven;
-            continue;
-        }
-        ++compared;
-        for (std::size_t c = 0; c < 3; ++c) {
-            const float exact = uniform.mean.texels[4 * pixel + c];
-            ASSERT_NEAR(rounds.mean.texels[4 * pixel + c], exact, 8 * 6e-8F * exact) << pixel;
+    const Scene scene = spottedFloor();
+    RenderSettings settings = small(2);
+    settings.direct = DirectLight::hemisphere;
+    constexpr std::array<std::uint32_t, 3> kBudgets{8, 8, 16};
+    const std::vector<Film> films = eachRound(scene, settings, kBudgets);
+    const std::vector<float>& last = films.back().counts.texels;
+    const auto most = static_cast<std::uint32_t>(*std::max_element(last.begin(), last.end()));
+    ASSERT_LT(most, 300U);
+    const std::vector<std::vector<double>> sums = firstSums(scene, settings, most);
+    // A sum is k times a mean that was rounded to a float.
+    constexpr double kUnit = 6e-8;
+    std::size_t uneven = 0;
+    for (std::size_t pixel = 0; pixel < last.size(); ++pixel) {
+        const std::size_t first_round = static_cast<std::size_t>(films[0].counts.texels[pixel]);
+        const std::size_t second_round = static_cast<std::size_t>(films[1].counts.texels[pixel]);
+        uneven += second_round != 16 ? 1 : 0;
+        ASSERT_EQ(first_round, 8U);
+        for (std::size_t i = 4 * pixel; i < 4 * pixel + 3; ++i) {
+            double exact = 0.0, bound = 0.0;
+            std::size_t before = 0;
+            for (std::size_t round = 0; round < films.size(); ++round) {
+                const auto now = static_cast<std::size_t>(films[round].counts.texels[pixel]);
+                ASSERT_GT(now, before);
+                const double weight = kBudgets[round] / 32.0 / static_cast<double>(now - before);
+                const double sum_before = before > 0 ? sums[before][i] : 0.0;
+                exact += weight * (sums[now][i] - sum_before);
+                bound += kUnit * weight * (sums[now][i] + sum_before);
+                before = now;
+            }
+            ASSERT_NEAR(films.back().mean.texels[i], exact, bound + 4 * kUnit * exact) << pixel;
         }
     }
-    EXPECT_GT(compared, 0U);
     EXPECT_GT(uneven, 0U) << "nothing was adapted";
 }
 
