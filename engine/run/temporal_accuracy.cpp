@@ -79,17 +79,32 @@ private:
     Truth truth_;
 };
 
+/// What ways of taking noise out begin with.
+struct Beginning {
+    gpu::Device& device;
+    const Scene& scene;
+    const Camera& camera;
+    const RenderSettings& settings;
+};
+
 /// A way of taking noise out, frame after frame.
 class Runner {
 public:
-    Runner(gpu::Device& device, const Scene& scene, const Camera& camera, RenderSettings settings,
-           Denoise mode, std::uint32_t samples)
-        : samples_(samples) {
+    Runner(const Beginning& beginning, Denoise mode, std::uint32_t samples)
+        : beginning_(beginning), samples_(samples) {
         result_.mode = mode;
-        settings.denoise = mode;
+        beginAnew(beginning.settings.first_sample);
+    }
+
+    /// Nothing counts of what was drawn.
+    void beginAnew(std::uint32_t first_sample) {
+        RenderSettings settings = beginning_.settings;
+        settings.denoise = result_.mode;
         settings.moves = true;
         settings.layers = {};
-        renderer_ = std::make_unique<Renderer>(device, scene, camera, settings);
+        settings.first_sample = first_sample;
+        renderer_ =
+            std::make_unique<Renderer>(beginning_.device, beginning_.scene, beginning_.camera, settings);
     }
 
     void draw(const PathFrame& frame) {
@@ -143,6 +158,7 @@ private:
         return static_cast<double>(now.texels[i]) - static_cast<double>(before.texels[i]);
     }
 
+    Beginning beginning_;
     std::uint32_t samples_;
     std::unique_ptr<Renderer> renderer_;
     TemporalMode result_;
@@ -182,13 +198,15 @@ TemporalAccuracy measureTemporal(gpu::Device& device, const Scene& scene, std::s
     RenderSettings settings = asked;
     settings.scene_moves = path.front().scene != nullptr;
     requireMemory(kFlipAsDisplayedBytesPerPixel * settings.size.x * settings.size.y, "FLIP takes");
-    const Camera& camera = path.front().camera;
-    Truths truths(device, scene, camera, settings, request.reference_samples);
-    std::vector<Runner> runners, fresh;
+    const Beginning beginning{device, scene, path.front().camera, settings};
+    Truths truths(device, scene, beginning.camera, settings, request.reference_samples);
+    std::vector<Runner> runners;
+    std::vector<Runner> fresh;  // of those that keep a history
     for (const Denoise mode : kTemporalModes) {
-        runners.emplace_back(device, scene, camera, settings, mode, request.samples);
-        if (mode != Denoise::none) fresh.emplace_back(device, scene, camera, settings, mode, request.samples);
+        runners.emplace_back(beginning, mode, request.samples);
+        if (mode != Denoise::none) fresh.emplace_back(beginning, mode, request.samples);
     }
+    std::uint32_t sample = settings.first_sample;  // the frame's first; they count on from frame to frame
     TemporalAccuracy result;
     std::optional<Truth> before;
     SurfaceAges ages;
@@ -201,6 +219,7 @@ TemporalAccuracy measureTemporal(gpu::Device& device, const Scene& scene, std::s
         ages.advance(follows ? std::optional<SeenDepths>({before->view, before->depth}) : std::nullopt,
                      {truth->view, truth->depth});
         if (before) starts.advance(!follows, lightChanged(*before, *truth));
+        sample = follows ? sample + request.samples : settings.first_sample;
         for (Runner& runner : runners) {
             runner.draw(path[frame]);
             runner.compare(*truth);
@@ -209,9 +228,9 @@ TemporalAccuracy measureTemporal(gpu::Device& device, const Scene& scene, std::s
             runner.addGhost(runners.front().squares(), ages.ages());
         }
         for (std::size_t i = 0; before && i < fresh.size(); ++i) {
-            PathFrame shown = path[frame];
-            if (starts.begins()) shown.change = ViewChange::cut;
-            fresh[i].draw(shown);
+            // The same samples from here on, so that what is rare is in both.
+            if (starts.begins()) fresh[i].beginAnew(sample);
+            fresh[i].draw(path[frame]);
             fresh[i].compare(*truth);
             runners[i + 1].addRecovery(starts, fresh[i].squares(), *truth, ages.ages());
         }
