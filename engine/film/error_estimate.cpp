@@ -4,26 +4,26 @@
 #include <bit>
 #include <cmath>
 
+#include "licht/film/steady_means.h"
 #include "licht/measure/metrics.h"
 
 namespace licht {
 namespace {
 
-/// Mean of squared errors (of pixel, channel), each relative to the film's mean there.
+/// Mean of squared errors (of pixel, channel), each relative to what is shown there.
 template <typename SquaredError>
 double meanRelative(const Film& film, const SquaredError& squared_error) {
+    const Image means = steadyMeans(film);
     const std::size_t pixels = std::size_t{film.size.x} * film.size.y;
-    const auto mean = [&film](std::size_t i, std::size_t c) {
-        return static_cast<double>(film.mean.texels[4 * i + c]);
-    };
     double picture_mean = 0.0;
     for (std::size_t i = 0; i < pixels; ++i)
-        for (std::size_t c = 0; c < 3; ++c) picture_mean += mean(i, c);
+        for (std::size_t c = 0; c < 3; ++c) picture_mean += static_cast<double>(film.mean.texels[4 * i + c]);
     picture_mean /= 3.0 * static_cast<double>(pixels);
     double sum = 0.0;
     for (std::size_t i = 0; i < pixels; ++i)
         for (std::size_t c = 0; c < 3; ++c)
-            sum += relativeSquare(squared_error(i, c), mean(i, c), picture_mean);
+            sum += relativeSquare(squared_error(i, c), static_cast<double>(means.texels[3 * i + c]),
+                                  picture_mean);
     return sum / (3.0 * static_cast<double>(pixels));
 }
 
