@@ -1,17 +1,15 @@
 #include "licht/render/renderer.h"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
-#include <cmath>
 #include <cstring>
 #include <optional>
 
 #include "licht/core/clock.h"
 #include "licht/core/error.h"
 #include "licht/film/develop.h"
-#include "licht/gpu/upload_image.h"
 #include "licht/render/adaptive_rounds.h"
+#include "licht/render/display.h"
 #include "licht/render/frame.h"
 #include "licht/render/images.h"
 #include "licht/render/in_flight.h"
@@ -84,8 +82,7 @@ struct Renderer::State {
     bool fresh = true;                   ///< there is none that this one is told of
     bool changed = false;                ///< the scene is another than that of the view before
     std::optional<HalfCounts> untold;    ///< samples of the view before that "history" does not hold yet
-    gpu::Image folded_mean;              ///< of all rounds, for the display
-    gpu::Bindings folded_bindings;
+    HostPicture on_host;                 ///< for the display
     ViewRecord view{};
     ViewRecord previous_view{};   ///< that the last sample saw
     RenderStatistics statistics;  ///< without what in_flight counts
@@ -344,9 +341,7 @@ Film Renderer::readFilm() {
 
 void Renderer::recordDisplay(gpu::Commands& commands, Tonemap curve, float exposure_ev, bool filtered) {
     State& s = *state_;
-    TonemapPush push{};
-    push.exposure = std::exp2(exposure_ev);
-    push.curve = static_cast<uint>(curve);
+    const TonemapPush push = displayedBy(curve, exposure_ev);
     if (!s.rounds) {
         filtered = filtered && s.filters();
         if (filtered) s.recordFilter(commands);
@@ -354,27 +349,25 @@ void Renderer::recordDisplay(gpu::Commands& commands, Tonemap curve, float expos
         return;
     }
     // The history holds the last round alone.
-    const Film film = s.rounds->film().film();
-    s.folded_mean = gpu::uploadImage(
-        s.device, "folded mean", {film.size.x, film.size.y}, VK_FORMAT_R32G32B32A32_SFLOAT,
-        std::as_bytes(std::span(film.mean.texels)), VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT);
-    const std::array<gpu::BoundResource, 2> resources{
-        {{"mean_high", &s.folded_mean}, {"display_image", &s.frame->images()["display_image"]}}};
-    s.folded_bindings = gpu::Bindings(s.device, s.programs->tonemap, resources);
-    commands.dispatch(passName(PassId::tonemap), {s.programs->tonemap, s.folded_bindings}, push,
-                      {film.size.x, film.size.y});
+    s.on_host.recordDisplay(s.device, commands, s.programs->tonemap, s.rounds->film().film().mean, push,
+                            displayImage());
 }
 
 Image Renderer::readDisplay(Tonemap curve, float exposure_ev, bool filtered) {
     State& s = *state_;
     finish();
-    gpu::Commands commands(s.device);
-    commands.begin();
-    recordDisplay(commands, curve, exposure_ev, filtered);
-    commands.submit();
-    commands.wait();
-    addTimes(s.statistics.passes, commands.times());
-    return developDisplay(s.settings.size, s.read("display_image"));
+    return licht::readDisplay(s.device, displayImage(), s.statistics.passes, [&](gpu::Commands& commands) {
+        recordDisplay(commands, curve, exposure_ev, filtered);
+    });
+}
+
+Image Renderer::readDisplay(const Image& picture, Tonemap curve, float exposure_ev) {
+    State& s = *state_;
+    finish();
+    return licht::readDisplay(s.device, displayImage(), s.statistics.passes, [&](gpu::Commands& commands) {
+        s.on_host.recordDisplay(s.device, commands, s.programs->tonemap, picture,
+                                displayedBy(curve, exposure_ev), displayImage());
+    });
 }
 
 const gpu::Image& Renderer::displayImage() const {

@@ -53,6 +53,8 @@ public:
     /// The tone-mapped picture, display-referred sRGB in [0,1], RGBA; or the mean of its samples, before the
     /// filter.
     [[nodiscard]] Image readDisplay(Tonemap curve, float exposure_ev, bool filtered = true);
+    /// So, a picture of that size that was made of this renderer's: RGBA, linear.
+    [[nodiscard]] Image readDisplay(const Image& picture, Tonemap curve, float exposure_ev);
     /// Records the tone map into an RGBA8/BGRA8 image of the same size; used by the window. `commands` must
     /// be recording.
     void recordDisplay(gpu::Commands& commands, Tonemap curve, float exposure_ev, bool filtered = true);
