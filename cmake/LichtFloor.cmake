@@ -45,10 +45,14 @@ function(licht_precompiled target)
   endif()
 endfunction()
 
-# licht_floor(NAME LINKS ... PRIVATE_LINKS ...): every .cpp of this folder becomes the library licht_NAME, alias licht::NAME.
+# licht_floor(NAME LINKS ... PRIVATE_LINKS ... WITHOUT ...): every .cpp of this folder, but those after WITHOUT, becomes the library
+# licht_NAME, alias licht::NAME.
 function(licht_floor name)
-  cmake_parse_arguments(arg "" "" "LINKS;PRIVATE_LINKS" ${ARGN})
+  cmake_parse_arguments(arg "" "" "LINKS;PRIVATE_LINKS;WITHOUT" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS *.cpp)
+  foreach(file IN LISTS arg_WITHOUT)
+    list(REMOVE_ITEM sources ${CMAKE_CURRENT_SOURCE_DIR}/${file})
+  endforeach()
   add_library(licht_${name} STATIC ${sources})
   add_library(licht::${name} ALIAS licht_${name})
   set_target_properties(licht_${name} PROPERTIES EXPORT_NAME ${name})

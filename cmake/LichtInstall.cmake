@@ -22,6 +22,10 @@ endif()
 
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/licht)
 install(EXPORT licht NAMESPACE licht:: FILE lichtTargets.cmake DESTINATION ${package})
+set(LICHT_OPTIONAL)
+if(OpenImageDenoise_FOUND)
+  set(LICHT_OPTIONAL OpenImageDenoise)
+endif()
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/lichtConfig.cmake.in ${PROJECT_BINARY_DIR}/lichtConfig.cmake
   INSTALL_DESTINATION ${package})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/lichtConfigVersion.cmake COMPATIBILITY SameMinorVersion)

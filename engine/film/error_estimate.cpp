@@ -32,7 +32,7 @@ constexpr double kSteepestFall = 0.25;
 }  // namespace
 
 double relativeError(const Film& film) {
-    if (film.samples < 2 && film.unfiltered.texels.empty()) return -1.0;
+    if (film.variance.texels.empty() || (film.samples < 2 && film.unfiltered.texels.empty())) return -1.0;
     return std::sqrt(meanRelative(film, [&film](std::size_t i, std::size_t c) {
         return static_cast<double>(film.variance.texels[3 * i + c]);
     }));

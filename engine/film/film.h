@@ -16,7 +16,8 @@ struct Film {
     Image mean;      ///< RGBA: linear radiance, cd/m^2; alpha: share of samples that saw surface, sky or sun
     Image variance;  ///< RGB: estimated variance of the mean above (zero while samples < 2)
     /// Where the picture is filtered, `mean` is what the filter made and `variance` its estimated squared
-    /// error, bias included; this is the mean of the samples, RGBA, which is otherwise empty.
+    /// error, bias included (empty where nothing is known of it); this is the mean of the samples, RGBA,
+    /// which is otherwise empty.
     Image unfiltered;
     double filter_bias = -1.0;       ///< relative, root of the mean square, estimated; negative: not filtered
     double unfiltered_error = -1.0;  ///< relative, estimated as of independent samples; negative: not

@@ -31,6 +31,7 @@ struct Renderer::State {
           upload_start(Clock::now()),
           scene(d, first, effectsOf(first, s), settings),
           in_flight(d) {
+        assert(settings.denoise != Denoise::oidn);  // the host's, behind all this
         statistics.bvh_seconds = scene.now().bvhSeconds();
         statistics.geometry_bytes = scene.now().geometryBytes();
         statistics.upload_seconds = secondsSince(upload_start) - statistics.bvh_seconds;

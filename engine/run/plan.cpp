@@ -24,7 +24,12 @@ RunPlan planRun(gpu::Device& device, const Scene& scene, const Camera& camera, c
                 std::uint32_t pictures) {
     if (run.render.adaptive && run.render.denoise != Denoise::none)
         throw InputError("--denoise filters samples that are as many in every pixel: leave out --adaptive");
-    RunPlan plan{run.render, stopRules(run), {}, {}, {}};
+    RunPlan plan{run.render, stopRules(run), run.render.denoise == Denoise::oidn, {}, {}, {}};
+    if (plan.oidn) {
+        plan.settings.denoise = Denoise::none;
+        plan.settings.layers.add(LayerId::albedo);
+        plan.settings.layers.add(LayerId::normal);
+    }
     // Of a still there are no earlier views.
     if (!run.render.moves && run.render.denoise == Denoise::temporal) plan.settings.denoise = Denoise::none;
     plan.settings.blue_bits = blueBitsFor(run.samples);

@@ -17,6 +17,8 @@ StopRules stopRules(const RunSettings& run);
 struct RunPlan {
     RenderSettings settings;  ///< for the Renderer
     StopRules rules;
+    bool oidn = false;  ///< what was drawn goes through makeOidn()'s filter, of which the renderer knows
+                        ///< nothing but the layers that it asks for
     std::optional<DepthChoice> depth;           ///< where a pilot chose the bounces
     std::optional<BiasMeasure> regularisation;  ///< where it is on
     std::string_view queue_trouble;  ///< the operation that the device gets wrong, so that one kernel does

@@ -94,14 +94,15 @@ constexpr auto namesOf(Energy) {
 }
 
 /// What is done about noise: nothing; what earlier views have told, brought to the present one; or that and a
-/// filter over pixels that show one surface, whose share falls as the noise does.
-enum class Denoise : std::uint32_t { none, temporal, spatiotemporal };
+/// filter over pixels that show one surface, whose share falls as the noise does; or, on the host, what a
+/// network makes of the picture when its samples are there.
+enum class Denoise : std::uint32_t { none, temporal, spatiotemporal, oidn };
 constexpr auto namesOf(Denoise) {
     return std::to_array<NamedChoice<Denoise>>(
         {{"none", Denoise::none},
          {"temporal", Denoise::temporal, "earlier views of the same surfaces, where the camera moves"},
-         {"spatiotemporal", Denoise::spatiotemporal,
-          "that and neighbours that differ by no more than noise"}});
+         {"spatiotemporal", Denoise::spatiotemporal, "that and neighbours that differ by no more than noise"},
+         {"oidn", Denoise::oidn, "Open Image Denoise, which does not say how wrong it is"}});
 }
 
 /// How linear values become those of a display.
@@ -148,8 +149,7 @@ std::string_view nameOf(Choice choice) {
 
 /// "sobol (Owen-scrambled), blue or random"
 template <typename Choice>
-std::string listOf() {
-    const auto choices = choicesOf<Choice>();
+std::string listOf(std::span<const NamedChoice<Choice>> choices = choicesOf<Choice>()) {
     std::string list;
     for (std::size_t i = 0; i < choices.size(); ++i) {
         if (i > 0) list += i + 1 == choices.size() ? " or " : ", ";

@@ -45,7 +45,8 @@ constexpr std::array<LayerInfo, kLayerCount> kTable{{
      0.0F},
     {LayerId::variance,
      "variance",
-     "estimated variance of the picture's mean; of a filtered picture the squared error, bias included",
+     "estimated variance of the picture's mean; of a filtered picture the squared error, bias included, "
+     "where the filter says it",
      {"variance.R", "variance.G", "variance.B"},
      LayerRule::picture,
      "",

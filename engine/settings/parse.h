@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -39,9 +40,10 @@ float parsePositiveFloat(std::string_view option, std::string_view text);
 
 /// One of what can be chosen by name (choices.h).
 template <typename Choice>
-Choice parseChoice(std::string_view option, std::string_view text) {
+Choice parseChoice(std::string_view option, std::string_view text,
+                   std::span<const NamedChoice<Choice>> choices = choicesOf<Choice>()) {
     std::string names;
-    for (const auto& known : choicesOf<Choice>()) {
+    for (const auto& known : choices) {
         if (known.name == text) return known.choice;
         if (!names.empty()) names += ", ";
         names += known.name;

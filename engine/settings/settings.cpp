@@ -4,6 +4,10 @@
 
 namespace licht {
 
+bool offersOidn() {
+    return LICHT_HAS_OIDN == 1;
+}
+
 std::uint32_t blueBitsFor(std::optional<std::uint32_t> samples) {
     constexpr std::uint32_t kMostBits = 10;
     if (!samples) return RenderSettings{}.blue_bits;

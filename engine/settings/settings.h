@@ -57,10 +57,18 @@ constexpr bool keepsSignals(const RenderSettings& settings) {
            (settings.denoise == Denoise::temporal && settings.moves);
 }
 
+/// Whether something is done about the noise of a view that has none before it.
+constexpr bool filtersStills(Denoise denoise) {
+    return denoise == Denoise::spatiotemporal || denoise == Denoise::oidn;
+}
+
 /// Whether earlier views tell something of the present one.
 constexpr bool keepsHistory(const RenderSettings& settings) {
     return settings.denoise != Denoise::none && settings.moves;
 }
+
+/// Whether the program was made with OpenImageDenoise, so that a run may have Denoise::oidn.
+bool offersOidn();
 
 /// What a run is asked for: the picture, when to stop, and what is left to the program to choose. The first
 /// limit that is reached stops a run; without any it draws kDefaultSamples.

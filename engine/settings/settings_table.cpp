@@ -7,6 +7,7 @@
 #include <cctype>
 #include <type_traits>
 
+#include "licht/core/error.h"
 #include "licht/settings/parse.h"
 #include "licht/shared/constants.h"
 
@@ -76,13 +77,38 @@ Setting count(Setting row, Field field, std::uint32_t lowest, std::uint32_t high
 }
 
 template <typename Choice, typename Settings>
-Setting choice(Setting row, Choice Settings::*field) {
-    for (const auto& known : choicesOf<Choice>()) row.names.push_back(known.name);
+Setting choice(Setting row, Choice Settings::*field,
+               std::span<const NamedChoice<Choice>> choices = choicesOf<Choice>()) {
+    for (const auto& known : choices) row.names.push_back(known.name);
     if constexpr (std::is_same_v<Settings, RenderSettings>)
         row.number = [field](const RenderSettings& settings) {
             return static_cast<std::uint32_t>(settings.*field);
         };
-    return parsed(std::move(row), field, parseChoice<Choice>, listOf<Choice>());
+    return parsed(
+        std::move(row), field,
+        [choices](std::string_view option, std::string_view text) {
+            return parseChoice<Choice>(option, text, choices);
+        },
+        listOf<Choice>(choices));
+}
+
+/// What the renderer itself does about noise.
+std::span<const NamedChoice<Denoise>> ownDenoisers() {
+    constexpr std::size_t kOwn = namesOf(Denoise{}).size() - 1;
+    static_assert(namesOf(Denoise{})[kOwn].choice == Denoise::oidn);
+    return choicesOf<Denoise>().first(kOwn);
+}
+
+/// That, and the library that works on a picture when its samples are there.
+Setting denoiseOfRun(const Setting& row) {
+    if (offersOidn()) return choice(row, &RenderSettings::denoise);
+    Setting own = choice(row, &RenderSettings::denoise, ownDenoisers());
+    own.set = [option = row.option, set = own.set](RunSettings& run, std::string_view text) {
+        if (text == nameOf(Denoise::oidn))
+            throw InputError(fmt::format("{} '{}': this build has no OpenImageDenoise", option, text));
+        set(run, text);
+    };
+    return own;
 }
 
 /// A number of bounces, or "auto".
@@ -112,6 +138,8 @@ constexpr std::uint32_t kMaxCount32 = std::numeric_limits<std::uint32_t>::max();
 constexpr std::string_view kFlag = {};
 constexpr const char* kBouncesMeaning =
     "0: emission alone, 1: and direct light, and so on (default: {default})";
+constexpr const char* kDenoiseMeaning =
+    "Filter the picture by {values}; its error estimate is that of the filtered picture";
 
 // Columns: option, placeholder, group, uses, meaning and, where there is one, the constant; then what of the
 // settings it is, and its range.
@@ -184,9 +212,9 @@ std::vector<Setting> samplingRows() {
         flag({"--regularise", kFlag, biased, kUses, "Widen glossy lobes behind a path's first scattering",
               kConstantRegularise},
              &RenderSettings::regularise),
-        choice({"--denoise", "HOW", biased, kForRun | kForView | kInFile,
-                "Filter the picture by {values}; its error estimate is that of the filtered picture"},
-               &RenderSettings::denoise)};
+        denoiseOfRun({"--denoise", "HOW", biased, kForRun | kInFile, kDenoiseMeaning}),
+        choice({"--denoise", "HOW", biased, kForView, kDenoiseMeaning}, &RenderSettings::denoise,
+               ownDenoisers())};
 }
 
 std::vector<Setting> expertRows() {

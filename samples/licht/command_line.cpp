@@ -25,6 +25,16 @@ void requireSampleIndices(const RunSettings& run, const std::optional<PathReques
                         path ? fmt::format("--frames {} of ", frames) : "", samples, kMostSamples));
 }
 
+/// Nobody tells how wrong its picture is.
+void checkWithOidn(const RunSettings& run) {
+    const LayerSet& layers = run.render.layers;
+    if (run.error)
+        throw InputError("--error: what --denoise oidn makes has no estimated error: say --spp or --time");
+    // `all` are those that there are.
+    if (layers.has(LayerId::variance) && layers != allLayers())
+        throw InputError("--aov variance: what --denoise oidn makes has no estimated error");
+}
+
 void checkTogether(const RenderOptions& options) {
     const auto isExr = [](const std::filesystem::path& path) {
         return lowerCase(path.extension().string()) == ".exr";
@@ -38,8 +48,9 @@ void checkTogether(const RenderOptions& options) {
             "--aov bounces: the layers are stored in .exr files and summed up in the report: add -o FILE.exr "
             "or --report FILE");
     const RunSettings& run = options.run;
-    if (options.unfiltered && (run.render.denoise != Denoise::spatiotemporal || options.path))
-        throw InputError("--unfiltered: is of a still that is drawn with --denoise spatiotemporal");
+    if (options.unfiltered && (!filtersStills(run.render.denoise) || options.path))
+        throw InputError("--unfiltered: is of a still that is filtered, as with --denoise spatiotemporal");
+    if (run.render.denoise == Denoise::oidn) checkWithOidn(run);
     if (options.path && (run.seconds || run.error || run.render.adaptive))
         throw InputError(
             "--path: its frames have --spp samples each; leave out --time, --error and --adaptive");

@@ -36,6 +36,7 @@ Image countsOf(const Film& film) {
 std::vector<Image> picturesOf(const Film& film, const LayerInfo& layer) {
     switch (layer.id) {
         case LayerId::variance:
+            if (film.variance.texels.empty()) return {};
             return {film.variance};
         case LayerId::sample_count:
             return {countsOf(film)};

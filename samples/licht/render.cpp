@@ -1,8 +1,10 @@
 #include <fmt/format.h>
 
+#include <memory>
 #include <optional>
 
 #include "licht/core/clock.h"
+#include "licht/oidn/oidn.h"
 #include "licht/run/plan.h"
 #include "licht/run/render_loop.h"
 #include "samples/licht/commands.h"
@@ -33,6 +35,7 @@ int render(const RenderOptions& options) {
     run.render.size = shot.size;
     const RunPlan plan = planRun(device, source.scene, shot.camera, run);
     notePlan(report, plan);
+    const std::unique_ptr<Oidn> oidn = plan.oidn ? makeOidn() : nullptr;
     Renderer renderer(device, source.scene, shot.camera, plan.settings);
     progress->clear();
     if (!options.quiet) {
@@ -43,7 +46,8 @@ int render(const RenderOptions& options) {
     InterruptWatch interrupt;
     const LoopHooks hooks{[&interrupt] { return interrupt.asked(); },
                           [&progress](const ProgressState& state) { progress->show(state); }};
-    const LoopResult result = renderUntil(renderer, plan.settings, plan.rules, hooks);
+    LoopResult result = renderUntil(renderer, plan.settings, plan.rules, hooks);
+    if (oidn) filterOnHost(*oidn, result);
     progress.reset();
     interrupt.shield();
 

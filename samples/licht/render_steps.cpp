@@ -8,7 +8,9 @@
 #include <cstdlib>
 #include <span>
 
+#include "licht/core/clock.h"
 #include "licht/core/file.h"
+#include "licht/film/error_estimate.h"
 #include "licht/image/files.h"
 #include "licht/run/process_clock.h"
 #include "samples/licht/camera_path.h"
@@ -33,6 +35,13 @@ glm::dvec3 pictureMean(const Film& film) {
 }
 
 }  // namespace
+
+void filterOnHost(Oidn& oidn, LoopResult& result) {
+    const Clock::time_point start = Clock::now();
+    oidn.filter(result.film);
+    result.error = relativeError(result.film);
+    result.render_seconds += secondsSince(start);
+}
 
 void describeRun(RenderReport& report, const gpu::Device& device, const Renderer& renderer,
                  const LoopResult& result) {
@@ -59,6 +68,7 @@ void describeRun(RenderReport& report, const gpu::Device& device, const Renderer
 
 void notePlan(RenderReport& report, const RunPlan& plan) {
     report.settings = plan.settings;
+    if (plan.oidn) report.settings.denoise = Denoise::oidn;
     report.depth = plan.depth;
     report.regularisation = plan.regularisation;
 }
@@ -165,11 +175,14 @@ bool FilesWritten::add(const std::filesystem::path& path, const std::function<vo
 bool writePicture(FilesWritten& files, const std::filesystem::path& output, Renderer& renderer,
                   const Film& film, const RenderReport& report, double exposure) {
     return files.add(output, [&] {
+        const Tonemap curve = report.asked.tonemap;
+        const auto stops = static_cast<float>(exposure);
         if (isExr(output))
             writeExr(output, exrPicture(film, report.asked.render.layers, reportAttributes(report)));
+        else if (report.settings.denoise == Denoise::oidn)
+            writePng(output, withoutAlpha(renderer.readDisplay(film.mean, curve, stops)));
         else
-            writePng(output,
-                     withoutAlpha(renderer.readDisplay(report.asked.tonemap, static_cast<float>(exposure))));
+            writePng(output, withoutAlpha(renderer.readDisplay(curve, stops)));
     });
 }
 

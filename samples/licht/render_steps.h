@@ -8,6 +8,7 @@
 
 #include "licht/core/progress.h"
 #include "licht/gpu/device.h"
+#include "licht/oidn/oidn.h"
 #include "licht/render/renderer.h"
 #include "licht/run/plan.h"
 #include "licht/run/render_loop.h"
@@ -37,6 +38,9 @@ void notePlan(RenderReport& report, const RunPlan& plan);
 
 /// The pilot found no depth that spends the light, or the device cannot be trusted with queues.
 void warnOfPlan(const RunPlan& plan, const gpu::DeviceReport& device);
+
+/// The picture goes through the network, which takes time and whose error is not known.
+void filterOnHost(Oidn& oidn, LoopResult& result);
 
 void describeRun(RenderReport& report, const gpu::Device& device, const Renderer& renderer,
                  const LoopResult& result);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <memory>
 #include <optional>
 #include <set>
 #include <system_error>
@@ -9,6 +10,7 @@
 #include "licht/core/clock.h"
 #include "licht/core/error.h"
 #include "licht/film/error_estimate.h"
+#include "licht/oidn/oidn.h"
 #include "licht/run/process_clock.h"
 #include "samples/licht/camera_path.h"
 #include "samples/licht/frame_pattern.h"
@@ -89,8 +91,8 @@ std::uint32_t firstThatTells(const std::vector<PathFrame>& path, std::uint32_t w
 class SequenceRun {
 public:
     SequenceRun(const RenderOptions& options, const std::vector<PathFrame>& path, const FrameFiles& files,
-                RenderReport& report, double exposure)
-        : options_(options), path_(path), files_(files), report_(report), exposure_(exposure) {}
+                RenderReport& report, double exposure, Oidn* oidn)
+        : options_(options), path_(path), files_(files), report_(report), exposure_(exposure), oidn_(oidn) {}
 
     /// Frames from `first` on; the last one's film. Stops early where a file cannot be written.
     LoopResult draw(gpu::Device& device, Renderer& renderer, std::uint32_t first, FilesWritten& written,
@@ -112,6 +114,7 @@ public:
             }
             if (frame < first) continue;
             result.film = renderer.readFilm();
+            if (oidn_ != nullptr) oidn_->filter(result.film);
             result.error = relativeError(result.film);
             if (frame == first) result.first_image_seconds = secondsSinceProcessStart();
             report_.sequence->frames.push_back(
@@ -139,6 +142,7 @@ private:
     const FrameFiles& files_;
     RenderReport& report_;
     double exposure_;
+    Oidn* oidn_;  ///< null: frames stay as they are
 };
 
 std::string sequenceLine(const RenderReport& report, std::size_t frames) {
@@ -188,6 +192,7 @@ int renderSequence(const RenderOptions& asked) {
     run.render.scene_moves = moves(source);
     const RunPlan plan = planRun(device, source.scene, path.front().camera, run, options.path->frames);
     notePlan(report, plan);
+    const std::unique_ptr<Oidn> oidn = plan.oidn ? makeOidn() : nullptr;
     Renderer renderer(device, source.scene, path.front().camera, plan.settings);
     progress->clear();
     if (!options.quiet) {
@@ -199,7 +204,7 @@ int renderSequence(const RenderOptions& asked) {
     FilesWritten written;
     const double exposure = options.run.exposure.value_or(source.scene.default_exposure);
     InterruptWatch interrupt;
-    const LoopResult result = SequenceRun(options, path, files, report, exposure)
+    const LoopResult result = SequenceRun(options, path, files, report, exposure, oidn.get())
                                   .draw(device, renderer, first, written, *progress, interrupt);
     progress.reset();
     interrupt.shield();

@@ -119,6 +119,7 @@ ordered_json biasJson(const RenderReport& report) {
                               {"pilot_seconds", measure.seconds}};
     }
     if (report.filter_bias >= 0.0) bias["denoise"] = {{"relative_bias", report.filter_bias}};
+    if (report.settings.denoise == Denoise::oidn) bias["denoise"] = {{"relative_bias", nullptr}};
     return bias;
 }
 
@@ -134,6 +135,8 @@ std::string biasLine(const RenderReport& report) {
     if (report.filter_bias >= 0.0)
         line += fmt::format("{}denoise moved it by an estimated {:.2g} % beside the noise that it took",
                             line.empty() ? "" : ", ", 100.0 * report.filter_bias);
+    if (report.settings.denoise == Denoise::oidn)
+        line += fmt::format("{}denoise oidn moved it by an unknown amount", line.empty() ? "" : ", ");
     return line;
 }
 

@@ -149,6 +149,7 @@ const BadInput kBadInputs[] = {
     {"UnfilteredOverTheFiltered",
      {"render", "cornell", "--denoise", "spatiotemporal", "--unfiltered", "a.png", "-o", "a.png"},
      "a.png"},
+    {"AViewOfAnotherFilter", {"view", "cornell", "--denoise", "oidn"}, "none, temporal, spatiotemporal"},
     {"ResumeWithoutPath", {"render", "cornell", "--resume"}, "--path"},
     {"FramesWithoutNumber", {"render", "cornell", "--path", "orbit", "-o", "f.exr"}, "f.exr: the name of"},
     {"FramesOfTwoNumbers", {"render", "cornell", "--path", "orbit", "-o", "%d-%d.exr"}, "has one number"},
