@@ -11,6 +11,7 @@
 #include "licht/measure/flip.h"
 #include "licht/measure/metrics.h"
 #include "licht/measure/statistics.h"
+#include "licht/oidn/oidn.h"
 #include "licht/run/disocclusion.h"
 
 namespace licht {
@@ -93,15 +94,16 @@ public:
     Runner(const Beginning& beginning, Denoise mode, std::uint32_t samples)
         : beginning_(beginning), samples_(samples) {
         result_.mode = mode;
+        if (mode == Denoise::oidn) oidn_ = makeOidn();
         beginAnew(beginning.settings.first_sample);
     }
 
     /// Nothing counts of what was drawn.
     void beginAnew(std::uint32_t first_sample) {
         RenderSettings settings = beginning_.settings;
-        settings.denoise = result_.mode;
+        settings.denoise = oidn_ ? Denoise::none : result_.mode;
         settings.moves = true;
-        settings.layers = {};
+        settings.layers = oidn_ ? LayerSet{LayerId::albedo, LayerId::normal} : LayerSet{};
         settings.first_sample = first_sample;
         renderer_ =
             std::make_unique<Renderer>(beginning_.device, beginning_.scene, beginning_.camera, settings);
@@ -112,7 +114,9 @@ public:
         showFrame(*renderer_, frame);
         for (std::uint32_t i = 0; i < samples_; ++i) renderer_->renderSample();
         previous_ = std::move(picture_);
-        picture_ = withoutAlpha(renderer_->readFilm().mean);
+        Film film = renderer_->readFilm();
+        if (oidn_) oidn_->filter(film);
+        picture_ = withoutAlpha(film.mean);
         result_.frames.push_back({secondsSince(start), 0.0, 0.0});
     }
     void compare(const Truth& truth) {
@@ -160,6 +164,7 @@ private:
 
     Beginning beginning_;
     std::uint32_t samples_;
+    std::unique_ptr<Oidn> oidn_;
     std::unique_ptr<Renderer> renderer_;
     TemporalMode result_;
     Image picture_, previous_;
@@ -206,6 +211,7 @@ TemporalAccuracy measureTemporal(gpu::Device& device, const Scene& scene, std::s
         runners.emplace_back(beginning, mode, request.samples);
         if (mode != Denoise::none) fresh.emplace_back(beginning, mode, request.samples);
     }
+    if (offersOidn()) runners.emplace_back(beginning, Denoise::oidn, request.samples);
     std::uint32_t sample = settings.first_sample;  // the frame's first; they count on from frame to frame
     TemporalAccuracy result;
     std::optional<Truth> before;

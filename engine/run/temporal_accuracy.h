@@ -48,7 +48,7 @@ struct TemporalMode {
 };
 
 struct TemporalAccuracy {
-    std::vector<TemporalMode> modes;  ///< as kTemporalModes
+    std::vector<TemporalMode> modes;  ///< as kTemporalModes, and oidn where offersOidn()
     double reference_rel_mse = 0.0;   ///< of the references, mean over the frames; taken off
     std::size_t frames = 0;           ///< that were measured, fewer than the path's where interrupted
 };

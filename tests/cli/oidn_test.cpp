@@ -147,6 +147,17 @@ TEST(Oidn, EveryFrameOfAPathIsFiltered) {
         EXPECT_TRUE(frame.at("relative_error").is_null());
 }
 
+TEST(Oidn, StandsBesideTheOthersInMotion) {
+    const ScratchFolder folder;
+    const Outcome outcome =
+        runLicht(folder, {"accuracy", "cornell", "--temporal", "--size", "32x32", "--frames", "2",
+                          "--reference-spp", "64", "--json", "a.json", "--quiet"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const json modes = json::parse(folder.read("a.json")).at("modes");
+    EXPECT_EQ(modes.back().at("mode"), "oidn");
+    EXPECT_LT(modes.back().at("relmse").get<double>(), modes.front().at("relmse").get<double>());
+}
+
 TEST(Oidn, WhoAsksForItsErrorIsRefused) {
     const ScratchFolder folder;
     for (const Words& asked : {Words{"--error", "0.1"}, Words{"--aov", "albedo,variance", "-o", "a.exr"}}) {
