@@ -10,6 +10,7 @@
 
 #include "licht/film/film.h"
 #include "licht/settings/settings.h"
+#include "licht/shared/transfer.h"
 #include "samples/scenes/assembly.h"
 #include "samples/scenes/builtin.h"
 #include "samples/scenes/shapes.h"
@@ -139,21 +140,51 @@ TEST(Mis, IsNeverMuchWorseThanTheBetterOfBoth) {
     }
 }
 
+/// Two texels side by side, nearest: the left one bright.
+void addStripes(Scene& scene, std::uint32_t material) {
+    Texture stripes;
+    stripes.width = 2;
+    stripes.height = 1;
+    stripes.bits = 8;
+    stripes.bytes = {255, 255, 255, 255, 0, 0, 0, 255};
+    scene.textures = {stripes};
+    scene.materials[material].slots[kSlotEmissive].texture = 0;
+    scene.materials[material].slots[kSlotEmissive].linear = false;
+}
+
+enum class TinyShape { square, triangle, striped_triangle };
+
+/// Over the origin at a height of 1, facing down; radiance times area is 4 whatever its side.
+Scene tinyLight(TinyShape shape, float side) {
+    // The triangle's u is 0 at one corner and 1 at the others: a quarter of it is bright.
+    const float bright = shape == TinyShape::square ? 1.0F : shape == TinyShape::triangle ? 0.5F : 0.125F;
+    Scene scene;
+    scene.materials = {lambert(0.5F), lambert(0.0F, 4.0F / (bright * side * side))};
+    addReceiver(scene, 0.001F);
+    const float h = 0.5F * side;
+    Mesh mesh = quadMesh("light", 1, vec3(-h, 1, -h), vec3(h, 1, -h), vec3(h, 1, h), vec3(-h, 1, h));
+    if (shape != TinyShape::square) mesh.triangles.pop_back();
+    if (shape == TinyShape::striped_triangle) addStripes(scene, 1);
+    place(scene, std::move(mesh));
+    return scene;
+}
+
 // At a fixed product of radiance and area a light's size does not matter once it is far away: E = L A / d^2,
 // off by the square of size over distance; the way of sampling changes in between.
 TEST(TinyLight, GivesWhatItsPowerSays) {
-    for (const float side : {1e-2F, 1e-3F, 3e-4F, 1e-5F}) {
-        Scene scene;
-        scene.materials = {lambert(0.5F), lambert(0.0F, 4.0F / (side * side))};
-        addReceiver(scene, 0.001F);
-        const float h = 0.5F * side;
-        place(scene, quadMesh("light", 1, vec3(-h, 1, -h), vec3(h, 1, -h), vec3(h, 1, h), vec3(-h, 1, h)));
-        const Film film = renderFilm(scene, downCamera(vec3(0.0F), 0.001F, 0.5F),
-                                     settingsOf(DirectLight::mis, MisHeuristic::power, LightChoice::tree), 4);
-        const double exact = 0.5 / kPi * 4.0;
-        const PictureMean mean = pictureMean(film, 0);
-        const double relative = 2.0 * (static_cast<double>(side) * static_cast<double>(side) + 1e-6) + 1e-5;
-        EXPECT_NEAR(mean.mean, exact, 4.5 * mean.standard_error + relative * exact) << side;
+    for (const TinyShape shape : {TinyShape::square, TinyShape::triangle, TinyShape::striped_triangle}) {
+        for (const float side : {1e-2F, 1e-3F, 3e-4F, 1e-5F}) {
+            if (shape != TinyShape::square && side < 1e-2F && side > 1e-5F) continue;
+            const Film film =
+                renderFilm(tinyLight(shape, side), downCamera(vec3(0.0F), 0.001F, 0.5F),
+                           settingsOf(DirectLight::mis, MisHeuristic::power, LightChoice::tree), 4);
+            const double exact = 0.5 / kPi * 4.0;
+            const PictureMean mean = pictureMean(film, 0);
+            const double relative =
+                2.0 * (static_cast<double>(side) * static_cast<double>(side) + 1e-6) + 1e-5;
+            EXPECT_NEAR(mean.mean, exact, 4.5 * mean.standard_error + relative * exact)
+                << static_cast<int>(shape) << " " << side;
+        }
     }
 }
 
@@ -161,14 +192,7 @@ TEST(TinyLight, GivesWhatItsPowerSays) {
 TEST(TexturedLight, IsWhatScatteringFinds) {
     Scene scene;
     scene.materials = {lambert(0.5F), lambert(0.0F, 4.0F)};
-    Texture stripes;
-    stripes.width = 2;
-    stripes.height = 1;
-    stripes.bits = 8;
-    stripes.bytes = {255, 255, 255, 255, 0, 0, 0, 255};
-    scene.textures = {stripes};
-    scene.materials[1].slots[kSlotEmissive].texture = 0;
-    scene.materials[1].slots[kSlotEmissive].linear = false;
+    addStripes(scene, 1);
     addReceiver(scene, 0.5F);
     addWall(scene, 2);
     const Camera camera = downCamera(vec3(0.0F), 0.5F, 3.0F);
@@ -177,6 +201,27 @@ TEST(TexturedLight, IsWhatScatteringFinds) {
     for (const DirectLight direct : {DirectLight::mis, DirectLight::area, DirectLight::hemisphere})
         expectMean(renderFilm(scene, camera, settingsOf(direct, MisHeuristic::power, LightChoice::tree), 128),
                    0.5 * 0.5 * 4.0 * 0.2000437761);
+}
+
+// What a colour of 16 bits says is decoded as one of 8 bits is.
+TEST(TexturedLight, SixteenBitsAreDecoded) {
+    constexpr std::uint32_t kValue = 40000;
+    Texture gray;
+    gray.width = gray.height = 1;
+    gray.bits = 16;
+    for (const std::uint32_t value : {kValue, kValue, kValue, 65535U})
+        for (const std::uint32_t byte : {value & 255U, value >> 8U})
+            gray.bytes.push_back(static_cast<std::uint8_t>(byte));
+    Scene scene;
+    scene.materials = {lambert(0.0F, 4.0F)};
+    scene.textures = {gray};
+    scene.materials[0].slots[kSlotEmissive].texture = 0;
+    addReceiver(scene, 0.5F);
+    const Film film = renderFilm(scene, downCamera(vec3(0.0F), 0.5F, 3.0F),
+                                 settingsOf(DirectLight::mis, MisHeuristic::power, LightChoice::tree), 1);
+    const double exact = 4.0 * static_cast<double>(linearFromSrgb(kValue / 65535.0F));
+    // A power of 2.4 in floats, as drivers have it.
+    EXPECT_NEAR(pictureMean(film, 0).mean, exact, 1e-4 * exact);
 }
 
 // A directional light that fills `degrees` and gives 3 lx to a surface that faces it.
