@@ -55,6 +55,54 @@ TEST(GltfMaterial, BaseColourIsFactorTimesTextureTimesVertexColour) {
     expectEverywhere(pictureOf(gltf), exact, kRounding);
 }
 
+// 3.7.2.1. A sample lies anywhere in its pixel, so a colour is off by what half a pixel makes of it.
+TEST(GltfMaterial, VertexColoursAreLinearBetweenCorners) {
+    GltfPicture gltf;
+    std::vector<float> colours;
+    for (const auto& [x, y] : test::kQuadCorners)
+        colours.insert(colours.end(), {0.5F + 0.5F * x, 0.5F + 0.5F * y, 1.0F, 1.0F});
+    gltf.addQuad(GltfPicture::matte(), Json::object(), {{"COLOR_0", gltf.file.vec4s(colours)}});
+    const Film film = pictureOf(gltf);
+    constexpr double kPixel = 0.5 / 16.0;
+    for (int y = 0; y < 16; ++y) {
+        for (int x = 0; x < 16; ++x) {
+            const double right = 0.25 + kPixel * (x + 0.5);
+            const double up = 0.75 - kPixel * (y + 0.5);
+            ASSERT_NEAR(static_cast<double>(film.mean.at(x, y, 0)), right, 0.5 * kPixel + kRounding);
+            ASSERT_NEAR(static_cast<double>(film.mean.at(x, y, 1)), up, 0.5 * kPixel + kRounding);
+        }
+    }
+}
+
+// 3.9.6: the back of a double-sided surface has the normal turned round. Turned by 120 degrees it is seen
+// aslant, and lit from straight before it.
+TEST(GltfMaterial, BacksFaceThoseWhoSeeThem) {
+    GltfPicture gltf;
+    const double half = std::numbers::pi / 3.0;
+    gltf.addQuad(GltfPicture::matte({{"doubleSided", true}}),
+                 {{"rotation", {0, std::sin(half), 0, std::cos(half)}}, {"scale", {4, 4, 4}}});
+    const vec3 back(-std::sin(2.0 * half), 0.0, -std::cos(2.0 * half));
+    expectEverywhere(pictureOf(gltf, back), glm::dvec3(1.0), kRounding);
+}
+
+// A shade of four panes behind the camera, of which the upper right one is open, and its shadow.
+TEST(GltfMaterial, RaysPassHolesWhereTheirTexelsStand) {
+    GltfPicture gltf;
+    gltf.addQuad(GltfPicture::matte());
+    const int panes = gltf.addTexture(
+        2, 2, {{255, 255, 255, 255}, {255, 255, 255, 0}, {255, 255, 255, 255}, {255, 255, 255, 255}});
+    gltf.addQuad(GltfPicture::matte({{"alphaMode", "MASK"},
+                                     {"pbrMetallicRoughness", {{"baseColorTexture", {{"index", panes}}}}}}),
+                 {{"translation", {0, 0, 5}}});
+    const Film film = pictureOf(gltf);
+    for (int y = 0; y < 16; ++y) {
+        for (int x = 0; x < 16; ++x) {
+            const double lit = x >= 8 && y < 8 ? 1.0 : 0.0;
+            ASSERT_NEAR(static_cast<double>(film.mean.at(x, y, 0)), lit, kRounding) << x << ' ' << y;
+        }
+    }
+}
+
 // 3.9.2: roughness in G, metalness in B, not decoded.
 TEST(GltfMaterial, RoughnessIsGreenAndMetalnessIsBlue) {
     GltfPicture gltf;
@@ -93,6 +141,17 @@ TEST(GltfMaterial, IorGivesTheReflectance) {
                    {{"baseColorFactor", {0, 0, 0, 1}}, {"metallicFactor", 0.0}, {"roughnessFactor", 0.7}}},
                   {"extensions", {{"KHR_materials_ior", {{"ior", 2.0}}}}}});
     expectEverywhere(pictureOf(gltf), glm::dvec3(mirrorPeak(1.0 / 9.0, 0.7)), kRounding);
+}
+
+// KHR_materials_specular: colours may be brighter than white, and reflect no more than all there is.
+TEST(GltfMaterial, BrightSpecularColoursReflectNoMoreThanAll) {
+    GltfPicture gltf;
+    gltf.addQuad({{"pbrMetallicRoughness",
+                   {{"baseColorFactor", {0, 0, 0, 1}}, {"metallicFactor", 0.0}, {"roughnessFactor", 0.7}}},
+                  {"extensions",
+                   {{"KHR_materials_ior", {{"ior", 2.0}}},
+                    {"KHR_materials_specular", {{"specularColorFactor", {18.0, 4.5, 1.0}}}}}}});
+    expectEverywhere(pictureOf(gltf), mirrorPeak(1.0, 0.7) * glm::dvec3(1.0, 0.5, 1.0 / 9.0), kRounding);
 }
 
 // KHR_materials_clearcoat: factor by R, roughness by G. Over black, with no other layer.
