@@ -134,13 +134,17 @@ TEST(GltfMaterial, SpecularIsAlphaAndItsColourIsDecoded) {
     expectEverywhere(pictureOf(gltf), mirrorPeak(1.0, 0.7) * f0, kRounding);
 }
 
-// KHR_materials_ior.
+// KHR_materials_ior: 1.5 where nobody says, and 0 reflects all.
 TEST(GltfMaterial, IorGivesTheReflectance) {
-    GltfPicture gltf;
-    gltf.addQuad({{"pbrMetallicRoughness",
-                   {{"baseColorFactor", {0, 0, 0, 1}}, {"metallicFactor", 0.0}, {"roughnessFactor", 0.7}}},
-                  {"extensions", {{"KHR_materials_ior", {{"ior", 2.0}}}}}});
-    expectEverywhere(pictureOf(gltf), glm::dvec3(mirrorPeak(1.0 / 9.0, 0.7)), kRounding);
+    for (const auto& [ior, f0] :
+         {std::pair(Json{{"ior", 2.0}}, 1.0 / 9.0), {Json::object(), 0.04}, {Json{{"ior", 0.0}}, 1.0}}) {
+        GltfPicture gltf;
+        gltf.addQuad(
+            {{"pbrMetallicRoughness",
+              {{"baseColorFactor", {0, 0, 0, 1}}, {"metallicFactor", 0.0}, {"roughnessFactor", 0.7}}},
+             {"extensions", {{"KHR_materials_ior", ior}}}});
+        expectEverywhere(pictureOf(gltf), glm::dvec3(mirrorPeak(f0, 0.7)), kRounding);
+    }
 }
 
 // KHR_materials_specular: colours may be brighter than white, and reflect no more than all there is.

@@ -8,6 +8,7 @@
 #include "licht/film/film.h"
 #include "licht/on_device/gpu_scene.h"
 #include "licht/scene/instancing.h"
+#include "licht/scene/tangents.h"
 #include "licht/settings/settings.h"
 #include "licht/shared/effects.h"
 #include "licht/shared/geometry.h"
@@ -122,6 +123,31 @@ TEST(Instances, PrimaryHitsAreThoseOfTheFlattenedScene) {
         // Shading normals change quickly over the thin tubes.
         EXPECT_LE(differing(a.layer(LayerId::normal), b.layer(LayerId::normal), 0.01F), 0.01);
     }
+}
+
+// A map that tilts all normals towards the bitangent, which changes sides where an instance is mirrored.
+TEST(Instances, NormalMapsTiltThemAsFlattenedOnes) {
+    Scene scene = crowd(kCount);
+    Texture tilt;
+    tilt.width = tilt.height = 1;
+    tilt.bytes = {128, 220, 200, 255};
+    scene.textures = {tilt};
+    scene.materials[0].slots[kSlotNormal].texture = 0;
+    for (Mesh& mesh : scene.meshes) {
+        mesh.uv_sets.assign(1, {});
+        for (const vec3& p : mesh.positions) mesh.uv_sets[0].emplace_back(p.x, p.y);
+        deriveTangents(mesh, scene.materials[0].slots[kSlotNormal]);
+    }
+    RenderSettings settings = small();
+    settings.bounces = 0;
+    settings.layers = {LayerId::normal};
+    const Film a = renderFilm(scene, scene.cameras[0], settings, 1);
+    const Film b = renderFilm(scene, scene.cameras[0], flattened(settings), 1);
+    EXPECT_LE(differing(a.layer(LayerId::normal), b.layer(LayerId::normal), 0.02F), 0.01);
+    scene.materials[0].slots[kSlotNormal] = {};
+    const Film untilted = renderFilm(scene, scene.cameras[0], settings, 1);
+    EXPECT_GE(differing(a.layer(LayerId::normal), untilted.layer(LayerId::normal), 0.1F), 0.1)
+        << "nothing is tilted";
 }
 
 // The same sample addresses, so the same paths but where rounding turns one at an edge. One bounce: light,
