@@ -35,9 +35,9 @@ void SurfaceAges::advance(const std::optional<SeenDepths>& before, const SeenDep
     ages_ = std::move(ages);
 }
 
-void FreshStarts::advance(bool cut, bool light_changed) {
-    ++since_;
-    if (!cut && !light_changed && since_ < kWatchedFrames) return;
+void FreshStarts::advance(bool cut, bool light_changed, bool uncovered) {
+    if (watches()) ++since_;
+    if (!cut && !light_changed && (watches() || !uncovered)) return;
     since_ = 0;
     kind_ = cut ? ChangeKind::cut : light_changed ? ChangeKind::light : ChangeKind::disocclusion;
 }

@@ -53,12 +53,14 @@ private:
     std::vector<std::uint32_t> ages_;
 };
 
-/// When histories that are compared with begin anew: with each change of the whole picture, and else often
-/// enough to have begun with what comes into sight.
+/// When histories that are compared with begin anew: with each change of the whole picture, and where none is
+/// watched with what comes into sight.
 class FreshStarts {
 public:
     /// The next frame, and how that follows the one before.
-    void advance(bool cut, bool light_changed);
+    void advance(bool cut, bool light_changed, bool uncovered);
+    /// Whether a change is watched.
+    [[nodiscard]] bool watches() const { return since_ < kWatchedFrames; }
     [[nodiscard]] bool begins() const { return since_ == 0; }
     [[nodiscard]] std::uint32_t framesSince() const { return since_; }
     /// What it began with.

@@ -1,5 +1,6 @@
 #include "licht/run/temporal_accuracy.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <memory>
@@ -117,6 +118,7 @@ public:
         Film film = renderer_->readFilm();
         if (oidn_) oidn_->filter(film);
         picture_ = withoutAlpha(film.mean);
+        if (result_.mode == Denoise::none) showFrameAlone(film.samples);
         result_.frames.push_back({secondsSince(start), 0.0, 0.0});
     }
     void compare(const Truth& truth) {
@@ -158,6 +160,17 @@ public:
     }
 
 private:
+    /// Takes off what earlier frames of a resting camera have in the mean of all samples.
+    void showFrameAlone(std::uint32_t samples) {
+        Image mean = picture_;
+        const double before = samples - samples_;
+        for (std::size_t i = 0; before > 0.0 && i < mean.texels.size(); ++i)
+            picture_.texels[i] =
+                static_cast<float>((static_cast<double>(samples) * static_cast<double>(mean.texels[i]) -
+                                    before * static_cast<double>(mean_.texels[i])) /
+                                   samples_);
+        mean_ = std::move(mean);
+    }
     static double changeOf(const Image& before, const Image& now, std::size_t i) {
         return static_cast<double>(now.texels[i]) - static_cast<double>(before.texels[i]);
     }
@@ -168,6 +181,7 @@ private:
     std::unique_ptr<Renderer> renderer_;
     TemporalMode result_;
     Image picture_, previous_;
+    Image mean_;                   ///< of the frames since the camera rests
     std::vector<double> squares_;  ///< relative ones of the picture's pixels
     RunningStatistics flicker_, ghost_;
 };
@@ -224,7 +238,11 @@ TemporalAccuracy measureTemporal(gpu::Device& device, const Scene& scene, std::s
         const bool follows = before && path[frame].change == ViewChange::motion;
         ages.advance(follows ? std::optional<SeenDepths>({before->view, before->depth}) : std::nullopt,
                      {truth->view, truth->depth});
-        if (before) starts.advance(!follows, lightChanged(*before, *truth));
+        if (before) {
+            const std::span<const std::uint32_t> now = ages.ages();
+            starts.advance(!follows, lightChanged(*before, *truth),
+                           std::find(now.begin(), now.end(), 0U) != now.end());
+        }
         sample = follows ? sample + request.samples : settings.first_sample;
         for (Runner& runner : runners) {
             runner.draw(path[frame]);
@@ -233,7 +251,7 @@ TemporalAccuracy measureTemporal(gpu::Device& device, const Scene& scene, std::s
             runner.addFlicker(before->mean, truth->mean);
             runner.addGhost(runners.front().squares(), ages.ages());
         }
-        for (std::size_t i = 0; before && i < fresh.size(); ++i) {
+        for (std::size_t i = 0; starts.watches() && i < fresh.size(); ++i) {
             // The same samples from here on, so that what is rare is in both.
             if (starts.begins()) fresh[i].beginAnew(sample);
             fresh[i].draw(path[frame]);

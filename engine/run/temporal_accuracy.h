@@ -32,7 +32,7 @@ struct MeanOfPixels {
 
 struct TemporalMode {
     Denoise mode = Denoise::none;
-    std::vector<TemporalFrame> frames;
+    std::vector<TemporalFrame> frames;  ///< of mode none each frame's samples alone, though the camera rests
     /// Mean |(out_t - out_t-1) - (ref_t - ref_t-1)| over the references' mean, without cuts.
     double flicker = 0.0;
     /// Relative squared error beyond that of mode none where a frame shows what the one before did not: what

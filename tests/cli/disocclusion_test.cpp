@@ -184,24 +184,28 @@ TEST(Recovery, IsTheFirstFrameWithinATenthOfAFreshStart) {
     EXPECT_FALSE(of_nothing.frames()) << "no pixel was touched";
 }
 
-TEST(Recovery, HistoriesBeginAnewWithEachChangeAndInBetween) {
+TEST(Recovery, HistoriesBeginAnewWithEachChange) {
     FreshStarts starts;
-    starts.advance(false, false);
+    starts.advance(false, false, false);
+    EXPECT_FALSE(starts.watches()) << "nothing changed";
+    starts.advance(false, false, true);
     EXPECT_TRUE(starts.begins());
     EXPECT_EQ(starts.kind(), ChangeKind::disocclusion);
     for (std::uint32_t i = 1; i < kWatchedFrames; ++i) {
-        starts.advance(false, false);
-        EXPECT_EQ(starts.framesSince(), i);
+        starts.advance(false, false, true);
+        EXPECT_EQ(starts.framesSince(), i) << "one is watched";
         EXPECT_TRUE(starts.touched(i));
         EXPECT_FALSE(starts.touched(i - 1));
     }
-    starts.advance(false, false);
+    starts.advance(false, false, false);
+    EXPECT_FALSE(starts.watches());
+    starts.advance(false, false, true);
     EXPECT_TRUE(starts.begins()) << "what comes into sight later has one, too";
-    starts.advance(false, true);
+    starts.advance(false, true, false);
     EXPECT_TRUE(starts.begins());
     EXPECT_EQ(starts.kind(), ChangeKind::light);
     EXPECT_TRUE(starts.touched(SurfaceAges::kUnknown)) << "light is everywhere";
-    starts.advance(true, true);
+    starts.advance(true, true, false);
     EXPECT_TRUE(starts.begins());
     EXPECT_EQ(starts.kind(), ChangeKind::cut);
 }
