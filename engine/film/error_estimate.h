@@ -11,8 +11,7 @@ namespace licht {
 /// sqrt of the estimated relMSE: mean over pixels and channels of variance of the mean / (mean^2 + 0.01 *
 /// (the picture's mean)^2), by steadyMeans (steady_means.h). Negative while it is unknown (fewer than two
 /// samples, not filtered; a filter that does not say). As if samples were independent: for those of an even
-/// sequence ErrorEstimate
-/// (error_estimate.h) is closer.
+/// sequence ErrorEstimate is closer.
 double relativeError(const Film& film);
 
 /// Estimates the error of a picture from how it moves while it is rendered.

@@ -19,9 +19,6 @@ struct Around {
 Around operator+(const Around& a, const Around& b) {
     return {a.count + b.count, a.sum + b.sum, a.squares + b.squares, a.variances + b.variances};
 }
-Around operator-(const Around& a, const Around& b) {
-    return {a.count - b.count, a.sum - b.sum, a.squares - b.squares, a.variances - b.variances};
-}
 
 Around ofPixel(const Film& film, int x, int y, int c) {
     const auto mean = static_cast<double>(film.mean.at(x, y, c));
@@ -45,23 +42,25 @@ double steadyMean(const Around& own, const Around& around) {
 Image steadyMeans(const Film& film) {
     const int width = film.mean.width, height = film.mean.height;
     Image means(width, height, 3);
-    std::vector<Around> columns(static_cast<std::size_t>(width));
+    // Of each column the rows around, with and without the middle one. Nothing is summed up to be taken off
+    // again: beside a bright pixel the dim ones would be lost.
+    std::vector<Around> whole(static_cast<std::size_t>(width));
+    std::vector<Around> hollow(static_cast<std::size_t>(width));
     for (int c = 0; c < 3; ++c) {
         for (int y = 0; y < height; ++y) {
-            // Rows first, then columns: ten sums a pixel instead of 25.
             for (int x = 0; x < width; ++x) {
-                Around& column = columns[static_cast<std::size_t>(x)];
+                Around& column = hollow[static_cast<std::size_t>(x)];
                 column = {};
                 for (int row = std::max(y - kReach, 0); row <= std::min(y + kReach, height - 1); ++row)
-                    column = column + ofPixel(film, x, row, c);
+                    if (row != y) column = column + ofPixel(film, x, row, c);
+                whole[static_cast<std::size_t>(x)] = column + ofPixel(film, x, y, c);
             }
             for (int x = 0; x < width; ++x) {
-                Around all;
+                Around around = hollow[static_cast<std::size_t>(x)];
                 for (int column = std::max(x - kReach, 0); column <= std::min(x + kReach, width - 1);
                      ++column)
-                    all = all + columns[static_cast<std::size_t>(column)];
-                const Around own = ofPixel(film, x, y, c);
-                means.at(x, y, c) = static_cast<float>(steadyMean(own, all - own));
+                    if (column != x) around = around + whole[static_cast<std::size_t>(column)];
+                means.at(x, y, c) = static_cast<float>(steadyMean(ofPixel(film, x, y, c), around));
             }
         }
     }

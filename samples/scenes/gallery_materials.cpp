@@ -8,15 +8,6 @@
 namespace licht::gallery {
 namespace {
 
-Material matte(std::string name, const vec3& color) {
-    Material material;
-    material.name = std::move(name);
-    material.base_color = vec4(color, 1.0F);
-    material.metallic = 0.0F;
-    material.specular = 0.0F;
-    return material;
-}
-
 Material glossy(std::string name, const vec3& color, float roughness) {
     Material material = matte(std::move(name), color);
     material.specular = 1.0F;

@@ -65,17 +65,8 @@ std::uint32_t paintOf(const Paints& paints, const vec3& normal, const vec3& face
     return x > kNave && x < kAisle ? paints.border : paints.floor;
 }
 
-Material stone(std::string name, const vec3& colour) {
-    Material material;
-    material.name = std::move(name);
-    material.base_color = vec4(colour, 1.0F);
-    material.metallic = 0.0F;
-    material.specular = 0.0F;
-    return material;
-}
-
 Material polished(std::string name, const vec3& colour, float roughness) {
-    Material material = stone(std::move(name), colour);
+    Material material = matte(std::move(name), colour);
     material.specular = 1.0F;
     material.roughness = roughness;
     return material;
@@ -146,8 +137,8 @@ void addPillars(Scene& scene, std::uint32_t material, std::uint32_t bays) {
 }  // namespace
 
 void addHall(Scene& scene, std::uint32_t bays) {
-    const Paints paints{addMaterial(scene, stone("plaster", {0.68F, 0.66F, 0.63F})),
-                        addMaterial(scene, stone("ceiling", {0.60F, 0.58F, 0.56F})),
+    const Paints paints{addMaterial(scene, matte("plaster", {0.68F, 0.66F, 0.63F})),
+                        addMaterial(scene, matte("ceiling", {0.60F, 0.58F, 0.56F})),
                         addMaterial(scene, polished("floor", {0.30F, 0.28F, 0.26F}, 0.28F)),
                         addMaterial(scene, polished("floor border", {0.09F, 0.09F, 0.10F}, 0.22F))};
     std::vector<Mesh> parts;

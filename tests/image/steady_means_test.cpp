@@ -64,6 +64,9 @@ TEST(SteadyMeans, ABrightPixelOfGreatVarianceIsNotBelieved) {
     setPixel(film, 4, 4, 50.0F, 2500.0F);
     // Weights are as 1 / (0.01 + 5) and 24 / 0.01.
     EXPECT_NEAR(steadyMeans(film).at(4, 4, 0), 1.0 + 49.0 * (0.01 / 24.0) / (5.01 + 0.01 / 24.0), 1e-5);
+    // However bright it is: those around are still one.
+    setPixel(film, 4, 4, 1e17F, 1e34F);
+    EXPECT_NEAR(steadyMeans(film).at(4, 4, 0), 1.0, 1e-5);
     // One of a variance like theirs is another thing, and stays: what they differ by does not reach it.
     setPixel(film, 4, 4, 1.0F, 0.01F);
     EXPECT_NEAR(steadyMeans(film).at(4, 4, 0), 1.0, 1e-6);
