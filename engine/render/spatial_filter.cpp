@@ -66,11 +66,10 @@ SpatialFilter::SpatialFilter(gpu::Device& device, const FilterPrograms& programs
     const auto to = [&](const gpu::Program& program, std::size_t filter_from, std::size_t smooth_from) {
         const std::array filters{&images["filter_even"], &images["filter_odd"]};
         const std::array smooths{&images["smooth_even"], &images["smooth_odd"]};
-        const std::array<gpu::BoundResource, 11> resources{
+        const std::array<gpu::BoundResource, 10> resources{
             {{"signal_sums", &images["signal_sums"]},
              {"prior", &images["prior"]},
              {"mean_high", &images["mean_high"]},
-             {"squares_high", &images["squares_high"]},
              {"filter_guide", &images["filter_guide"]},
              {"filter_from", filters[filter_from]},
              {"filter_to", filters[1 - filter_from]},
